@@ -1,0 +1,163 @@
+"""One native kernel per component type, cached by the digest of everything it is made from.
+
+The component's file is copied as it is, so that line numbers hold, and a footer is appended that
+turns its functions into one C function. A cache folder is never edited: other content, other key.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import os
+import platform
+import re
+import shutil
+import sys
+import tempfile
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+
+import llvmlite.binding
+import numba
+import numpy as np
+from numba.core.errors import NumbaError
+
+from gaitsim import __version__
+from gaitsim.errors import Fault, InvalidComponent, Mark
+from gaitsim.parts.primitive import Primitive
+
+START, OUTPUT, UPDATE = 0, 1, 2
+
+_FOOTER = '''
+
+# Appended by gaitsim: the functions above as one C function.
+import numpy as _np
+from numba import carray as _carray, cfunc as _cfunc, njit as _njit, types as _types
+
+_OPTIONS = {{"error_model": "numpy", "boundscheck": True}}
+_P = _np.dtype({parameters!r})
+_U = _np.dtype({inputs!r})
+_X = _np.dtype({states!r})
+_Y = _np.dtype({outputs!r})
+{helpers}
+{functions}
+_POINTERS = (_types.voidptr,) * 4
+
+
+@_cfunc(_types.int64(_types.int64, *_POINTERS, _types.float64), cache=True, error_model="numpy")
+def kernel(stage, p, u, x, y, dt):
+    parameters = _carray(p, 1, _P)[0]
+    inputs = _carray(u, 1, _U)[0]
+    states = _carray(x, 1, _X)[0]
+    outputs = _carray(y, 1, _Y)[0]
+    try:
+{calls}
+    except Exception:
+        return 1
+    return 0
+'''
+_ARGUMENTS = {
+    "start": "parameters, inputs, states",
+    "output": "parameters, inputs, states, outputs",
+    "update": "parameters, inputs, states, outputs, dt",
+}
+
+
+def address_of(component: Primitive) -> int:
+    """The address of a component's native kernel: `int64 (stage, p*, u*, x*, y*, dt)`.
+
+    Errors: InvalidComponent if the component is not native code.
+    """
+    return int(_module(component).kernel.address)
+
+
+@cache
+def _module(component: Primitive) -> ModuleType:
+    folder = _folder(component)
+    name = f"gaitsim_kernel_{folder.name}"
+    specification = importlib.util.spec_from_file_location(name, folder / "kernel.py")
+    assert specification is not None and specification.loader is not None
+    module = importlib.util.module_from_spec(specification)
+    sys.modules[name] = module
+    try:
+        specification.loader.exec_module(module)
+    except NumbaError as error:
+        raise InvalidComponent(_explained(error, component)) from error
+    return module
+
+
+def _folder(component: Primitive) -> Path:
+    """The cache folder of a component, made complete or not at all."""
+    text = component.source + _footer(component)
+    key = hashlib.sha256(f"{text}|{_environment()}".encode()).hexdigest()[:24]
+    folder = cache_folder() / key
+    if not (folder / "kernel.py").is_file():
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        draft = Path(tempfile.mkdtemp(dir=folder.parent, prefix=f"{key}.partial."))
+        (draft / "kernel.py").write_text(text, encoding="utf-8")
+        try:
+            draft.rename(folder)
+        except OSError:  # another process was faster; its content is the same
+            shutil.rmtree(draft)
+    return folder
+
+
+def cache_folder() -> Path:
+    """Where kernels are kept: $GAITSIM_CACHE, or gaitsim's folder in the user's cache."""
+    if own := os.environ.get("GAITSIM_CACHE"):
+        return Path(own) / "kernels"
+    root = os.environ.get("XDG_CACHE_HOME")
+    return (Path(root) if root else Path.home() / ".cache") / "gaitsim" / "kernels"
+
+
+@cache
+def _environment() -> str:
+    """What else the machine code depends on."""
+    processor = llvmlite.binding.get_host_cpu_name()
+    features = llvmlite.binding.get_host_cpu_features().flatten()
+    versions = [__version__, numba.__version__, np.__version__, platform.python_version()]
+    return "|".join([*versions, processor, features])
+
+
+def _footer(component: Primitive) -> str:
+    used = [name for name in _ARGUMENTS if name in component.functions]
+    cls = component.cls.__name__
+    functions = [f'_{n} = _njit({cls}.__dict__["{n}"].__func__, **_OPTIONS)' for n in used]
+    calls = [
+        f"        if stage == {stage}:\n            _{name}({_ARGUMENTS[name]})"
+        for stage, name in ((START, "start"), (OUTPUT, "output"), (UPDATE, "update"))
+        if name in used
+    ]
+    helpers = re.findall(r"^def (\w+)", component.source, re.MULTILINE)
+    return _FOOTER.format(
+        parameters=_layout(dict.fromkeys(component.parameters)),
+        inputs=_layout(dict.fromkeys(component.inputs)),
+        states=_layout({name: state.size for name, state in component.states.items()}),
+        outputs=_layout(dict.fromkeys(component.outputs)),
+        helpers="\n".join(f"{name} = _njit({name}, **_OPTIONS)" for name in helpers),
+        functions="\n".join(functions),
+        calls="\n".join(calls) or "        pass",
+    )
+
+
+def _layout(fields: dict[str, int | None]) -> list[tuple[str, str] | tuple[str, str, tuple[int]]]:
+    """A record of doubles, some of them arrays; never empty, as a record must have a field."""
+    made: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
+    for name, size in fields.items():
+        made.append((name, "f8") if size is None else (name, "f8", (size,)))
+    return made or [("_nothing", "f8")]
+
+
+def _explained(error: NumbaError, component: Primitive) -> Fault:
+    """The first sentence of the compiler, and the line it is about."""
+    text = re.sub(r"\x1b\[[0-9;]*m", "", str(error))
+    lines = [int(n) for n in re.findall(r'File ".*?", line (\d+)', text)]
+    source = component.source.splitlines()
+    line = next((n for n in lines if n <= len(source)), 0)
+    reasons = [row.strip() for row in text.splitlines() if row.strip()]
+    said = next((r for r in reasons if not r.startswith(("Failed in", "File", "During", "-", ">"))), "")
+    shown = source[line - 1] if line else ""
+    column = len(shown) - len(shown.lstrip()) + 1 if line else 0
+    message = f"this does not compile to native code: {said.rstrip('.')}; use numbers, if, for and math."
+    return Fault(message, Mark(str(component.path), line, column, shown))

@@ -1,0 +1,143 @@
+"""From a model to MuJoCo: parts in the order of the tree of bodies, every element with its place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+
+from gaitsim.compiler.mechanics import Element, Mechanics, Tie, numbers_of, world_frames
+from gaitsim.errors import Fault, Faults, InvalidSpec
+from gaitsim.model import WORLD, Model, Part
+from gaitsim.parts.load import function_of
+
+_INTEGRATORS = {
+    "euler": mujoco.mjtIntegrator.mjINT_EULER,
+    "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+}
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """A MuJoCo model and the ties between it and the ports of parts: (part's index, tie)."""
+
+    spec: Any
+    model: Any
+    reads: tuple[tuple[int, Tie], ...]
+    applies: tuple[tuple[int, Tie], ...]
+
+    @property
+    def xml(self) -> str:
+        """The model as MJCF, which stock MuJoCo loads."""
+        return str(self.spec.to_xml())
+
+
+def assemble(model: Model, values: Sequence[float]) -> Assembly:
+    """Build and compile the mechanics for one set of numbers.
+
+    Errors: InvalidSpec if the bodies form no tree or MuJoCo refuses an element.
+    """
+    spec = mujoco.MjSpec()
+    spec.modelname = model.name
+    spec.option.timestep = model.simulate.step
+    spec.option.gravity = [0, 0, -model.simulate.gravity]
+    spec.option.integrator = _INTEGRATORS[model.simulate.integrator]
+    # A state that is not finite is a failed candidate, never a silent reset.
+    spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
+    index = {part.address: i for i, part in enumerate(model.parts)}
+    frames = world_frames(spec)
+    reads: list[tuple[int, Tie]] = []
+    applies: list[tuple[int, Tie]] = []
+
+    def build(part: Part, body: Any = None) -> None:
+        mechanics = Mechanics(spec, part, frames, body)
+        function_of(part.type.cls, "build")(numbers_of(part, values, frames), mechanics)
+        reads.extend((index[part.address], tie) for tie in mechanics.reads)
+        applies.extend((index[part.address], tie) for tie in mechanics.applies)
+
+    order = body_order(model)
+    for segment, joint in order:
+        parent = frames.point(joint.attachments["parent"])
+        body = parent.body.add_body(name=segment.address, info=str(segment.mark))
+        frames.places[segment.address] = frames.point(WORLD).__class__(body, (0.0, 0.0, 0.0))
+        build(segment, body)
+        child = frames.point(joint.attachments["child"])
+        body.pos = [a - b for a, b in zip(parent.position, child.position, strict=True)]
+        build(joint)
+    done = {part.address for pair in order for part in pair}
+    for part in model.parts:
+        if "build" in part.type.functions and part.address not in done:
+            build(part)
+    return Assembly(spec, _compiled(spec), tuple(reads), tuple(applies))
+
+
+def body_order(model: Model) -> list[tuple[Part, Part]]:
+    """Segments and the joints that carry them, from the ground upwards.
+
+    Errors: InvalidSpec for a segment without a joint, with two, or in a ring.
+    """
+    faults = Faults()
+    segments = {part.address: part for part in model.parts if part.type.frames}
+    joints = [part for part in model.parts if {"parent", "child"} <= set(part.attachments)]
+    carried: dict[str, Part] = {}
+    for joint in joints:
+        child = _owner(joint.attachments["child"])
+        if child in carried:
+            rule = f"{child} is carried by {carried[child].address} and by {joint.address}"
+            faults.add(f"{rule}; a segment has one joint above it.", joint.mark, joint.address)
+        carried.setdefault(child, joint)
+    for address, segment in segments.items():
+        if address not in carried:
+            first = next(iter(segment.type.frames))
+            rule = f"no joint carries it; add one with child: {address}.{first}"
+            faults.add(f"{rule}.", segment.mark, address)
+    faults.raise_if_any()
+    ordered: list[tuple[Part, Part]] = []
+    placed = {WORLD}
+    while len(ordered) < len(segments):
+        ready = [
+            (segments[child], joint)
+            for child, joint in carried.items()
+            if child not in placed and _owner(joint.attachments["parent"]) in placed
+        ]
+        if not ready:
+            ring = ", ".join(address for address in segments if address not in placed)
+            joint = next(j for c, j in carried.items() if c not in placed)
+            rule = f"these segments carry each other in a ring: {ring}; fasten one to world."
+            raise InvalidSpec(Fault(rule, joint.mark, joint.address))
+        ordered += ready
+        placed |= {segment.address for segment, _ in ready}
+    return ordered
+
+
+def tie_place(model: Any, tie: Tie) -> int:
+    """Where in its array of MuJoCo's data a tied number lies."""
+    if tie.element is None:
+        return tie.index
+    start = {
+        ("joint", "qpos"): lambda e: model.joint(e.name).qposadr[0],
+        ("joint", "qvel"): lambda e: model.joint(e.name).dofadr[0],
+        ("joint", "qfrc_applied"): lambda e: model.joint(e.name).dofadr[0],
+        ("tendon", "ten_length"): lambda e: model.tendon(e.name).id,
+        ("tendon", "ten_velocity"): lambda e: model.tendon(e.name).id,
+        ("actuator", "ctrl"): lambda e: model.actuator(e.name).id,
+        ("sensor", "sensordata"): lambda e: model.sensor(e.name).adr[0],
+    }[tie.element.kind, tie.field]
+    return int(start(tie.element)) + tie.index
+
+
+def _owner(frame: str) -> str:
+    return frame if frame == WORLD else frame.rpartition(".")[0]
+
+
+def _compiled(spec: Any) -> Any:
+    try:
+        return spec.compile()
+    except ValueError as error:
+        text = " ".join(str(error).split())
+        raise InvalidSpec(f"MuJoCo refuses the mechanics: {text}") from error
+
+
+__all__ = ["Assembly", "Element", "assemble", "body_order", "tie_place"]

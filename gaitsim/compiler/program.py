@@ -1,0 +1,197 @@
+"""A program: a model laid out as tables of numbers, the same for rapid and normal mode."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gaitsim.compiler.graph import Call, schedule
+from gaitsim.errors import Faults
+from gaitsim.model import Connection, Model, Part
+
+Floats = NDArray[np.float64]
+Integers = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Where each part's fields begin in one of the tables p, u, x, y; a field per name."""
+
+    offsets: Integers
+    fields: tuple[dict[str, int], ...]
+    size: int
+
+    def place(self, part: int, name: str) -> int:
+        """The place of one field in the whole table."""
+        return int(self.offsets[part]) + self.fields[part][name]
+
+
+def _layout(sizes: Sequence[dict[str, int]]) -> Layout:
+    offsets, fields, total = [], [], 0
+    for each in sizes:
+        offsets.append(total)
+        own, inside = {}, 0
+        for name, size in each.items():
+            own[name] = inside
+            inside += size
+        fields.append(own)
+        total += max(inside, 1)
+    return Layout(np.array(offsets, dtype=np.int64), tuple(fields), total)
+
+
+@dataclass(frozen=True)
+class DelayLine:
+    """A delayed connection: what it reads, the number that is its delay, how long it can get."""
+
+    source: int
+    number: int
+    capacity: int
+    initial: int | None
+
+
+@dataclass(frozen=True)
+class Program:
+    """A model with its order of calls and its tables; compiled once, run for any candidate."""
+
+    model: Model
+
+    @cached_property
+    def index(self) -> dict[str, int]:
+        return {part.address: i for i, part in enumerate(self.model.parts)}
+
+    @cached_property
+    def parameters(self) -> Layout:
+        return _layout([dict.fromkeys(p.type.parameters, 1) for p in self.model.parts])
+
+    @cached_property
+    def inputs(self) -> Layout:
+        return _layout([dict.fromkeys(p.type.inputs, 1) for p in self.model.parts])
+
+    @cached_property
+    def states(self) -> Layout:
+        return _layout([{n: s.size or 1 for n, s in p.type.states.items()} for p in self.model.parts])
+
+    @cached_property
+    def outputs(self) -> Layout:
+        return _layout([dict.fromkeys(p.type.outputs, 1) for p in self.model.parts])
+
+    @cached_property
+    def calls(self) -> tuple[Call, ...]:
+        return schedule(self.model, [c for c in self.model.connections if self._delayed(c)])
+
+    @cached_property
+    def updates(self) -> tuple[int, ...]:
+        """Parts whose states advance."""
+        return tuple(i for i, p in enumerate(self.model.parts) if "update" in p.type.functions)
+
+    @cached_property
+    def stops(self) -> tuple[int, ...]:
+        """Parts that may end the run."""
+        return tuple(i for i, p in enumerate(self.model.parts) if p.measure and "stop" in p.type.outputs)
+
+    @cached_property
+    def delays(self) -> tuple[DelayLine, ...]:
+        """The delay lines, in the order of the connections that have one.
+
+        Errors: InvalidSpec for a delay that may be shorter than a step.
+        """
+        faults, lines = Faults(), []
+        step = self.model.simulate.step
+        for connection in self.model.connections:
+            if not self._delayed(connection) or connection.delay is None:
+                continue
+            number = self.model.numbers[connection.delay]
+            free = self.model.free[number.free] if number.free is not None else None
+            value = self.model.values()[connection.delay]
+            low, high = (free.low, free.high) if free else (value, value)
+            if low < step * (1 - 1e-9):
+                rule = f"{low:g} s is shorter than one step of {step:g} s; write 0 s or a longer delay"
+                faults.add(f"{rule}.", number.mark, number.address)
+            capacity = int(np.ceil(high / step)) + 3
+            source = self.outputs.place(*self.port(connection.source))
+            lines.append(DelayLine(source, connection.delay, capacity, connection.initial))
+        faults.raise_if_any()
+        return tuple(lines)
+
+    @cached_property
+    def senders(self) -> tuple[tuple[tuple[int, int], ...], ...]:
+        """For each input: its senders as (output, delay line or -1)."""
+        found: list[list[tuple[int, int]]] = [[] for _ in range(self.inputs.size)]
+        line = 0
+        for connection in self.model.connections:
+            target = self.inputs.place(*self.port(connection.target))
+            delayed = self._delayed(connection)
+            found[target].append((self.outputs.place(*self.port(connection.source)), line if delayed else -1))
+            line += delayed
+        return tuple(tuple(each) for each in found)
+
+    @cached_property
+    def signals(self) -> tuple[str, ...]:
+        """The address of every output, in the order of the table."""
+        return tuple(f"{p.address}.{n}" for p in self.model.parts for n in p.type.outputs)
+
+    @cached_property
+    def signal_places(self) -> Integers:
+        """Where each signal lies in the table of outputs."""
+        return np.array(
+            [self.outputs.place(i, n) for i, p in enumerate(self.model.parts) for n in p.type.outputs],
+            dtype=np.int64,
+        )
+
+    def port(self, address: str) -> tuple[int, str]:
+        """A port's part and name."""
+        owner, _, name = address.rpartition(".")
+        return self.index[owner], name
+
+    def part_of_output(self, place: int) -> int:
+        """The part that a place in the table of outputs belongs to."""
+        return int(np.searchsorted(self.outputs.offsets, place, side="right")) - 1
+
+    def parameter_table(self, values: Sequence[float]) -> Floats:
+        """Every part's parameters for one candidate."""
+        table = np.zeros(self.parameters.size)
+        for i, part in enumerate(self.model.parts):
+            for name, number in part.numbers.items():
+                if name in part.type.parameters:
+                    table[self.parameters.place(i, name)] = values[number]
+        return table
+
+    def input_base(self, values: Sequence[float]) -> Floats:
+        """What each input has without its senders: a constant, or the default."""
+        table = np.zeros(self.inputs.size)
+        for i, part in enumerate(self.model.parts):
+            for name, declared in part.type.inputs.items():
+                place = self.inputs.place(i, name)
+                if name in part.constants:
+                    table[place] = values[part.constants[name]]
+                elif not self.senders[place] and declared.default is not None:
+                    table[place] = declared.default * _factor(declared.unit)
+        return table
+
+    def delay_steps(self, values: Sequence[float]) -> Floats:
+        """Each delay line's delay in steps; nearly whole numbers are whole."""
+        steps = np.array([values[line.number] / self.model.simulate.step for line in self.delays])
+        whole = np.round(steps)
+        return np.where(np.abs(steps - whole) < 1e-9 * np.maximum(whole, 1), whole, steps)
+
+    def _delayed(self, connection: Connection) -> bool:
+        """Whether a connection has a delay; a fixed delay of zero is none."""
+        if connection.delay is None:
+            return False
+        number = self.model.numbers[connection.delay]
+        return number.free is not None or self.model.values()[connection.delay] != 0
+
+
+def _factor(unit: str) -> float:
+    from gaitsim.units import parse_unit
+
+    return parse_unit(unit).factor
+
+
+def measures(model: Model) -> list[tuple[int, Part]]:
+    """The parts that report metrics."""
+    return [(i, part) for i, part in enumerate(model.parts) if part.type.metrics]

@@ -1,0 +1,118 @@
+"""What goes wrong, said so that it can be mended: place, value, rule, next move."""
+
+from __future__ import annotations
+
+import difflib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from enum import IntEnum
+
+
+class ExitCode(IntEnum):
+    """The kind of a failure, as the shell sees it."""
+
+    OK = 0
+    BUG = 1
+    USAGE = 2
+    INVALID = 3
+    FAILED = 4
+    CLUSTER = 5
+    INTERRUPTED = 130
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A place in a text: file, line and column (from 1), and the line itself."""
+
+    file: str
+    line: int = 0
+    column: int = 0
+    text: str = ""
+
+    def __str__(self) -> str:
+        return ":".join([self.file, *(str(n) for n in (self.line, self.column) if n)])
+
+    @property
+    def frame(self) -> str:
+        """The line with a caret under the column; empty if the place has no text."""
+        if not self.text:
+            return ""
+        number = f"{self.line:>5}"
+        blank = " " * len(number)
+        return f"\n{number} | {self.text}\n{blank} | {' ' * (self.column - 1)}^"
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One mistake: where it stands, what it belongs to, and what to do about it."""
+
+    message: str
+    mark: Mark | None = None
+    address: str = ""
+
+    def __str__(self) -> str:
+        place = [str(self.mark)] if self.mark else []
+        address = [self.address] if self.address else []
+        return ": ".join([*place, *address, self.message]) + (self.mark.frame if self.mark else "")
+
+
+class GaitsimError(Exception):
+    """A mistake of the user or of the world around; never a bug of gaitsim."""
+
+    exit_code = ExitCode.INVALID
+
+    def __init__(self, faults: str | Fault | Iterable[Fault]) -> None:
+        if isinstance(faults, str):
+            faults = Fault(faults)
+        self.faults: tuple[Fault, ...] = (faults,) if isinstance(faults, Fault) else tuple(faults)
+        super().__init__("\n".join(str(fault) for fault in self.faults))
+
+
+class InvalidSpec(GaitsimError):
+    """The text of a spec, or what it asks for, breaks a rule."""
+
+
+class InvalidComponent(GaitsimError):
+    """A component file breaks the contract."""
+
+
+class SimulationFailed(GaitsimError):
+    """A candidate diverged, or one of its components raised."""
+
+    exit_code = ExitCode.FAILED
+
+
+class Usage(GaitsimError):
+    """The command line does not fit."""
+
+    exit_code = ExitCode.USAGE
+
+
+class Faults:
+    """A collector: a stage reports all its mistakes at once."""
+
+    def __init__(self) -> None:
+        self.found: list[Fault] = []
+
+    def add(self, message: str, mark: Mark | None = None, address: str = "") -> None:
+        fault = Fault(message, mark, address)
+        if fault not in self.found:
+            self.found.append(fault)
+
+    def raise_if_any(self, kind: type[GaitsimError] = InvalidSpec) -> None:
+        if self.found:
+            raise kind(sorted(self.found, key=_place))
+
+
+def _place(fault: Fault) -> tuple[str, int, int]:
+    mark = fault.mark or Mark("")
+    return (mark.file, mark.line, mark.column)
+
+
+def did_you_mean(word: str, known: Iterable[str]) -> str:
+    """A hint at the nearest known word, or the list of all known ones."""
+    words = sorted(known)
+    near = difflib.get_close_matches(word, words, n=1, cutoff=0.6)
+    if near:
+        return f"Did you mean {near[0]}?"
+    return f"Known here: {', '.join(words)}." if words else "Nothing is known here."

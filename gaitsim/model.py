@@ -1,0 +1,167 @@
+"""A model: every part, number and connection of a spec, resolved to SI; it never changes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+from gaitsim.errors import Mark, SimulationFailed
+from gaitsim.parts.primitive import Primitive
+from gaitsim.spec.expression import Expression
+
+WORLD = "world"
+
+
+@dataclass(frozen=True)
+class Number:
+    """One number of the model: fixed, free (tuned), or computed from numbers before it."""
+
+    address: str
+    unit: str
+    value: float = math.nan
+    free: int | None = None
+    expression: Expression | None = None
+    fraction_of: int | None = None
+    source: str = ""
+    mark: Mark | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True)
+class Free:
+    """A tuned number: bounds, start and spread in SI, and every address it drives."""
+
+    address: str
+    unit: str
+    low: float
+    high: float
+    start: float
+    spread: float
+    source: str
+    drives: tuple[str, ...]
+    mark: Mark | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True)
+class Place:
+    """A point on a frame: three coordinates as numbers of the model."""
+
+    frame: str
+    at: tuple[int, int, int]
+
+
+@dataclass(frozen=True)
+class Part:
+    """One primitive in its place."""
+
+    address: str
+    type: Primitive
+    numbers: Mapping[str, int]
+    constants: Mapping[str, int]
+    options: Mapping[str, str]
+    attachments: Mapping[str, str]
+    points: Mapping[str, Sequence[Place]]
+    mirrored: bool
+    measure: bool
+    mark: Mark
+
+
+@dataclass(frozen=True)
+class Group:
+    """One composite in its place."""
+
+    address: str
+    reference: str
+    mark: Mark
+
+
+@dataclass(frozen=True)
+class Connection:
+    """A signal's way from an output to an input; `made_by` a part if no spec wrote it."""
+
+    source: str
+    target: str
+    delay: int | None = None
+    initial: int | None = None
+    made_by: str = ""
+    mark: Mark | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True)
+class Simulate:
+    """How long and in which steps, in SI."""
+
+    duration: float
+    step: float
+    gravity: float
+    integrator: str
+
+
+@dataclass(frozen=True)
+class Objective:
+    """The part that turns metrics into a cost: its input -> the address of a metric."""
+
+    part: Part
+    metrics: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class Model:
+    """Everything that a program is compiled from."""
+
+    name: str
+    numbers: tuple[Number, ...]
+    free: tuple[Free, ...]
+    parts: tuple[Part, ...]
+    groups: tuple[Group, ...]
+    connections: tuple[Connection, ...]
+    initial: Mapping[str, int]
+    objective: Objective | None
+    simulate: Simulate
+    notices: tuple[str, ...] = ()
+
+    @property
+    def start(self) -> list[float]:
+        """The values of the free numbers that `run` uses."""
+        return [free.start for free in self.free]
+
+    def values(self, candidate: Sequence[float] | None = None) -> list[float]:
+        """Every number for a candidate: the values of `free`, in its order.
+
+        Errors: SimulationFailed if an expression has no value there.
+        """
+        chosen = self.start if candidate is None else candidate
+        values: list[float] = []
+        for number in self.numbers:
+            values.append(_value(number, values, chosen))
+        return values
+
+    def with_step(self, step: float) -> Model:
+        return replace(self, simulate=replace(self.simulate, step=step))
+
+    def part(self, address: str) -> Part:
+        return next(part for part in self.parts if part.address == address)
+
+
+def _value(number: Number, before: list[float], chosen: Sequence[float]) -> float:
+    if number.expression is not None:
+        try:
+            value = number.expression.value(before)
+        except (ArithmeticError, ValueError) as error:
+            message = f"{number.address}: {number.expression.text} has no value here ({error})"
+            raise SimulationFailed(message) from error
+    else:
+        value = number.value if number.free is None else float(chosen[number.free])
+    return value if number.fraction_of is None else value * before[number.fraction_of]
+
+
+def metric_names(part: Part) -> dict[str, str]:
+    """A measure's metrics: its own name -> the name in the outcome."""
+    return {name: part.address if name == "value" else f"{part.address}.{name}" for name in part.type.metrics}
+
+
+def metric_units(parts: Sequence[Part]) -> dict[str, str]:
+    """Every metric of these parts and its unit."""
+    return {
+        name: part.type.metrics[own].unit for part in parts for own, name in metric_names(part).items()
+    }

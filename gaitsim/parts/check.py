@@ -1,0 +1,295 @@
+"""A component file against its own declarations, before numba or a run sees it."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import copy
+import math
+from collections.abc import Iterator, Mapping, Sequence
+
+from gaitsim.component import Declaration, Input, Metric, Option, Output, Parameter, Points, State
+from gaitsim.errors import Fault, Faults, InvalidComponent, Mark, did_you_mean
+from gaitsim.units import UnknownUnit, known_units, parse_unit
+
+SIGNATURES: Mapping[str, tuple[str, ...]] = {
+    "start": ("p", "u", "x"),
+    "output": ("p", "u", "x", "y"),
+    "update": ("p", "u", "x", "y", "dt"),
+    "finish": ("p", "x", "m"),
+    "build": ("p", "mj"),
+}
+_LETTERS = {"p": Parameter, "u": Input, "x": State, "y": Output, "m": Metric}
+_SAID = {Parameter: "a parameter", Input: "an input", State: "a state", Output: "an output"}
+_SAID |= {Metric: "a metric", Points: "a list of points", Option: "an option"}
+_READ_ONLY = {"p": "parameters are read only.", "u": "inputs are read only."}
+_WRITERS = {"x": ("start", "update"), "y": ("output",), "m": ("finish",)}
+_FORBIDDEN = {"open", "exec", "eval", "__import__"}
+# numba compiles these; breakpoint only runs in plain Python, which is what it is for.
+_BUILTINS = {"abs", "min", "max", "range", "int", "float", "len", "bool", "round", "print"}
+_BUILTINS |= {"breakpoint", "ValueError", "ArithmeticError", "OverflowError", "RuntimeError"}
+
+
+def place(file: str, lines: Sequence[str], line: int, offset: int) -> Mark:
+    """The mark of a line and a byte offset in it, as the compiler counts."""
+    text = lines[line - 1] if 0 < line <= len(lines) else ""
+    return Mark(file, line, len(text.encode()[:offset].decode(errors="ignore")) + 1, text)
+
+
+def unit_rule(unit: str) -> str:
+    """What is said of a text that is no unit."""
+    return f'"{unit}" is not a unit; write one made of {", ".join(known_units())}, or "1".'
+
+
+def class_body(tree: ast.Module) -> list[ast.stmt]:
+    """What stands in the class of a parsed component file."""
+    return next(node.body for node in tree.body if isinstance(node, ast.ClassDef))
+
+
+def class_functions(tree: ast.Module) -> dict[str, ast.FunctionDef]:
+    """The functions of the component's class by name."""
+    return {node.name: node for node in class_body(tree) if isinstance(node, ast.FunctionDef)}
+
+
+def parse(source: str, file: str) -> ast.Module:
+    """The syntax tree of a component file that holds only what such a file may hold.
+
+    Errors: InvalidComponent.
+    """
+    lines, faults = source.split("\n"), Faults()
+    try:
+        tree = ast.parse(source, file)
+    except (SyntaxError, ValueError) as error:
+        line, column = getattr(error, "lineno", 0) or 0, getattr(error, "offset", 0) or 0
+        text = lines[line - 1] if 0 < line <= len(lines) else ""
+        said = getattr(error, "msg", str(error))
+        mark = Mark(file, line, max(column, 1) if line else 0, text)
+        raise InvalidComponent(Fault(f"this is not Python: {said}.", mark)) from None
+    classes = 0
+    for node in tree.body:
+        mark = place(file, lines, node.lineno, node.col_offset)
+        if isinstance(node, ast.ClassDef):
+            derives = any(isinstance(b, ast.Name) and b.id == "Component" for b in node.bases)
+            classes += derives
+            if not derives:
+                faults.add(f"{node.name} does not derive from Component.", mark)
+            elif classes > 1:
+                faults.add(f"{node.name} is a second component; give it a file of its own.", mark)
+        elif not isinstance(
+            node, ast.Import | ast.ImportFrom | ast.Assign | ast.AnnAssign | ast.FunctionDef
+        ) and not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
+            faults.add("a component file holds imports, constants, functions and one class.", mark)
+    if not classes:
+        faults.add(
+            "a component file holds one class that derives from Component; this has none.",
+            Mark(file),
+        )
+    for inner in ast.walk(tree):
+        if isinstance(inner, ast.Import | ast.ImportFrom) and not _may_import(inner):
+            mark = place(file, lines, inner.lineno, inner.col_offset)
+            faults.add(
+                "a component file imports math and gaitsim.component, nothing else; "
+                "write `import math` or `from gaitsim.component import ...`.",
+                mark,
+            )
+        elif isinstance(inner, ast.Name) and inner.id in _FORBIDDEN:
+            mark = place(file, lines, inner.lineno, inner.col_offset)
+            faults.add(f"{inner.id} may not be used in a component file.", mark)
+    faults.raise_if_any(InvalidComponent)
+    return tree
+
+
+def _may_import(node: ast.Import | ast.ImportFrom) -> bool:
+    if isinstance(node, ast.Import):
+        return all(alias.name == "math" and alias.asname is None for alias in node.names)
+    return node.level == 0 and node.module in ("gaitsim.component", "__future__")
+
+
+def check_names(
+    tree: ast.Module, declarations: Mapping[str, Declaration], file: str, lines: Sequence[str]
+) -> list[Fault]:
+    """All mistakes of a parsed file in names, signatures, assignments and declarations."""
+    check = _Check(tree, declarations, file, lines)
+    check.declared()
+    for name, function in check.functions.items():
+        check.signature(name, function)
+        if name in SIGNATURES:
+            check.attributes(name, function)
+        check.names(function, plain=name == "build")
+    for node in tree.body:
+        if isinstance(node, ast.FunctionDef):
+            check.names(node, plain=False)
+    check.never_assigned()
+    return sorted(check.faults.found, key=lambda f: (f.mark.line, f.mark.column) if f.mark else ())
+
+
+class _Check:
+    def __init__(
+        self, tree: ast.Module, known: Mapping[str, Declaration], file: str, lines: Sequence[str]
+    ) -> None:
+        self.known, self.file, self.lines, self.faults = known, file, lines, Faults()
+        self.functions = class_functions(tree)
+        constants = [n for n in tree.body if isinstance(n, ast.Import | ast.Assign | ast.AnnAssign)]
+        self.globals = {name for node in constants for name in _bound(node)}
+        self.globals |= {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
+        self.places: dict[str, ast.AST] = {}
+        for node in class_body(tree):
+            if isinstance(node, ast.Assign | ast.AnnAssign):
+                self.places |= dict.fromkeys(_bound(node), node)
+
+    def add(self, message: str, node: ast.AST | None) -> None:
+        line, offset = getattr(node, "lineno", 0), getattr(node, "col_offset", 0)
+        self.faults.add(message, place(self.file, self.lines, line, offset) if line else None)
+
+    def declared(self) -> None:
+        for name, one in self.known.items():
+            node = self.places.get(name)
+            if isinstance(one, Parameter | Input | Output | State | Metric | Points):
+                try:
+                    parse_unit(one.unit)
+                except UnknownUnit:
+                    self.add(f"{name}: {unit_rule(one.unit)}", node)
+            if isinstance(one, Parameter) and one.bounds is not None:
+                low, high = one.bounds
+                if low > high:
+                    self.add(f"{name}: bounds ({low}, {high}) are reversed.", node)
+                elif one.default is not None and not low <= one.default <= high:
+                    said = f"default {one.default} is outside its bounds ({low}, {high})."
+                    self.add(f"{name}: {said}", node)
+            if isinstance(one, Option) and one.default not in (None, *one.choices):
+                said = did_you_mean(str(one.default), one.choices)
+                self.add(f"{name}: default {one.default} is not one of its choices. {said}", node)
+
+    def signature(self, name: str, function: ast.FunctionDef) -> None:
+        if name not in SIGNATURES:
+            said = did_you_mean(name, SIGNATURES)
+            self.add(f"{name} is not a function of a component. {said}", function)
+            return
+        if [ast.unparse(d) for d in function.decorator_list] != ["staticmethod"]:
+            self.add(f"{name} needs @staticmethod above it, and nothing else.", function)
+        wanted = f"({', '.join(SIGNATURES[name])})"
+        given = f"({ast.unparse(_without_annotations(function.args))})"
+        if given != wanted:
+            self.add(f"{name} takes {wanted}; here it has {given}.", function)
+
+    def attributes(self, name: str, function: ast.FunctionDef) -> None:
+        letters = set(SIGNATURES[name]) & set(_LETTERS) & {a.arg for a in function.args.args}
+        written = {id(node) for node in _written(function)}
+        whole = {id(node) for node in self.whole(function)}
+        for node in ast.walk(function):
+            if isinstance(node, ast.Name) and node.id in letters:
+                if not isinstance(node.ctx, ast.Load):
+                    self.add(f"{node.id} is an argument; choose another name.", node)
+                elif id(node) not in whole:
+                    hint = f"write {node.id}.name, or pass {node.id} to a function of this file."
+                    self.add(f"{node.id} is used as a whole; {hint}", node)
+            elif isinstance(node, ast.Attribute) and isinstance(node.value, ast.Name):
+                letter = node.value.id
+                if letter not in letters or self.undeclared(letter, name, node):
+                    continue
+                if id(node) in written and name not in _WRITERS.get(letter, ()):
+                    said = _READ_ONLY.get(letter) or (
+                        f"{_SAID[_LETTERS[letter]].split()[1]}s are set in "
+                        f"{' and '.join(_WRITERS[letter])} only."
+                    )
+                    self.add(f"{letter}.{node.attr} is assigned in {name}; {said}", node)
+
+    def whole(self, function: ast.FunctionDef) -> Iterator[ast.expr]:
+        """Where a letter may stand: before a dot, and as an argument of a helper."""
+        for node in ast.walk(function):
+            if isinstance(node, ast.Attribute):
+                yield node.value
+            elif isinstance(node, ast.Call) and ast.unparse(node.func) in self.globals:
+                yield from node.args
+
+    def undeclared(self, letter: str, function: str, node: ast.Attribute) -> bool:
+        one, text = self.known.get(node.attr), f"{letter}.{node.attr}"
+        kinds = (Parameter, Points, Option) if letter == "p" else (_LETTERS[letter],)
+        if one is None:
+            names = [name for name, other in self.known.items() if isinstance(other, kinds)]
+            hint = _hint(node.attr, names, letter)
+            self.add(f"{text} is not declared. {hint}", node)
+        elif not isinstance(one, kinds):
+            home = next((at for at, kind in _LETTERS.items() if isinstance(one, kind)), "")
+            said = _SAID.get(type(one), f"declared as {type(one).__name__}")
+            hint = f"; write {home}.{node.attr}." if home else "."
+            self.add(f"{text} is not {_SAID[_LETTERS[letter]]}: {node.attr} is {said}{hint}", node)
+        elif isinstance(one, Points | Option) and function != "build":
+            self.add(f"{text} is {_SAID[type(one)]}; it is known in build only.", node)
+        else:
+            return False
+        return True
+
+    def names(self, function: ast.FunctionDef, plain: bool) -> None:
+        own = (set(_bound(function)) - {function.name}) | self.globals
+        allowed = (set(dir(builtins)) if plain else _BUILTINS) | own
+        body = [node for statement in function.body for node in ast.walk(statement)]
+        for node in body:
+            if isinstance(node, ast.Name) and node.id not in allowed | _FORBIDDEN:
+                hint = did_you_mean(node.id, allowed)
+                if not hint.startswith("Did you mean "):
+                    hint = did_you_mean(node.id, own)
+                self.add(f"{node.id} is not defined. {hint}", node)
+            elif isinstance(node, ast.Attribute) and ast.unparse(node.value) == "math":
+                known = [name for name in dir(math) if not name.startswith("_")]
+                if node.attr not in known:
+                    hint = _hint(node.attr, known, "math")
+                    self.add(f"math.{node.attr} is not defined. {hint}", node)
+
+    def never_assigned(self) -> None:
+        for kind, letter, name in ((Output, "y", "output"), (Metric, "m", "finish")):
+            function = self.functions.get(name)
+            names = {n for n, one in self.known.items() if isinstance(one, kind)}
+            if not names or (kind is Output and "build" in self.functions):
+                continue
+            if function is not None:
+                if _passed_whole(function, letter):
+                    continue
+                names -= {node.attr for node in _written(function)}
+            for missing in sorted(names):
+                self.add(f"{name} never assigns {letter}.{missing}.", self.places.get(missing))
+
+
+def _hint(word: str, names: list[str], prefix: str) -> str:
+    # The prefix is alike in all of them: only the names are compared.
+    near = did_you_mean(word, names)
+    if near.startswith("Did you mean "):
+        return near.replace("Did you mean ", f"Did you mean {prefix}.")
+    return did_you_mean("", [f"{prefix}.{name}" for name in names])
+
+
+def _bound(node: ast.AST) -> Iterator[str]:
+    """The names that a statement binds: assigned, imported, defined, arguments."""
+    for inner in ast.walk(node):
+        if isinstance(inner, ast.Name) and not isinstance(inner.ctx, ast.Load):
+            yield inner.id
+        elif isinstance(inner, ast.FunctionDef):
+            yield inner.name
+        elif isinstance(inner, ast.arg):
+            yield inner.arg
+        elif isinstance(inner, ast.alias):
+            yield inner.asname or inner.name
+
+
+def _written(function: ast.FunctionDef) -> Iterator[ast.Attribute]:
+    """Each attribute that a function assigns, also by an index: x.samples[i] = 0."""
+    for node in ast.walk(function):
+        if isinstance(node, ast.Attribute | ast.Subscript) and not isinstance(node.ctx, ast.Load):
+            inner: ast.expr = node
+            while isinstance(inner, ast.Subscript):
+                inner = inner.value
+            if isinstance(inner, ast.Attribute):
+                yield inner
+
+
+def _without_annotations(arguments: ast.arguments) -> ast.arguments:
+    bare = copy.deepcopy(arguments)
+    for node in ast.walk(bare):
+        if isinstance(node, ast.arg):
+            node.annotation = None
+    return bare
+
+
+def _passed_whole(function: ast.FunctionDef, letter: str) -> bool:
+    calls = [node for node in ast.walk(function) if isinstance(node, ast.Call)]
+    return any(isinstance(a, ast.Name) and a.id == letter for call in calls for a in call.args)

@@ -1,0 +1,119 @@
+"""Where components are found: beside the spec, given folders, the workspace, the shipped ones."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean
+from gaitsim.parts.composite import Composite, load_composite
+from gaitsim.parts.contract import kind_faults
+from gaitsim.parts.load import digest_of, load_primitive
+from gaitsim.parts.primitive import Primitive
+
+ComponentFile = Primitive | Composite
+_LOADERS: dict[str, Callable[[str, Path, str], ComponentFile]] = {
+    ".py": load_primitive,
+    ".yaml": load_composite,
+}
+
+
+def shipped_folder() -> Path:
+    """The library inside the wheel, or the checkout's own."""
+    package = Path(__file__).resolve().parents[1]
+    inside = package / "shipped" / "library"
+    return inside if inside.is_dir() else package.parent / "library"
+
+
+def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path, ...]:
+    """The search path for a spec, nearest first."""
+    beside = (spec or Path.cwd() / "x").absolute().parent
+    workspace = next((f / "library" for f in (beside, *beside.parents) if (f / "library").is_dir()), None)
+    folders = [beside / "components", *extra, *([workspace] if workspace else []), shipped_folder()]
+    unique = {folder.resolve(): folder for folder in reversed(folders) if folder.is_dir()}
+    return tuple(folder for folder in folders if unique.get(folder.resolve()) is folder)
+
+
+@dataclass
+class Library:
+    """Components by reference, each loaded once."""
+
+    folders: tuple[Path, ...]
+    notices: list[str] = field(default_factory=list)
+    _loaded: dict[str, ComponentFile] = field(default_factory=dict)
+
+    def find(self, reference: str) -> ComponentFile:
+        """The component of a reference such as muscle/geyer2003.
+
+        Errors: InvalidSpec (unknown), InvalidComponent (broken file).
+        """
+        if reference not in self._loaded:
+            self._loaded[reference] = self._load(reference)
+        return self._loaded[reference]
+
+    def references(self, kind: str = "*") -> list[str]:
+        """Every reference that can be used, sorted."""
+        found = {
+            f"{path.parent.name}/{path.stem}"
+            for folder in self.folders
+            for suffix in _LOADERS
+            for path in folder.glob(f"{kind}/*{suffix}")
+            if path.stem != "kind"
+        }
+        return sorted(found)
+
+    def used(self) -> dict[str, ComponentFile]:
+        """What has been loaded, by reference."""
+        return dict(sorted(self._loaded.items()))
+
+    def kind_file(self, kind: str) -> Path | None:
+        """The contract of a kind, if there is one."""
+        return next((f / kind / "kind.yaml" for f in self.folders if (f / kind / "kind.yaml").is_file()), None)
+
+    def _load(self, reference: str) -> ComponentFile:
+        files = self._files(reference)
+        if not files:
+            raise InvalidSpec(self._unknown(reference))
+        path = files[0]
+        twins = [f for f in files if f.parent == path.parent]
+        if len(twins) > 1:
+            both = " and ".join(shown(f) for f in twins)
+            raise InvalidSpec(Fault(f"{reference} is both {both}; remove one of them"))
+        loaded = _LOADERS[path.suffix](reference, path, shown(path))
+        contract = self.kind_file(loaded.kind)
+        faults = kind_faults(loaded, contract, shown(path)) if contract else []
+        if faults:
+            raise InvalidSpec(faults)
+        for hidden in files[1:]:
+            if _digest(hidden) != loaded.digest:
+                self.notices.append(f"{shown(path)} hides {shown(hidden)}")
+        return loaded
+
+    def _files(self, reference: str) -> list[Path]:
+        kind, _, name = reference.partition("/")
+        if not (kind.isidentifier() and name.isidentifier()):
+            return []
+        paths = [folder / kind / f"{name}{suffix}" for folder in self.folders for suffix in _LOADERS]
+        return [path for path in paths if path.is_file()]
+
+    def _unknown(self, reference: str) -> Fault:
+        hint = did_you_mean(reference, self.references())
+        return Fault(f"there is no component {reference}. {hint}")
+
+
+def _digest(path: Path) -> str:
+    return digest_of(path.read_text(encoding="utf-8"))
+
+
+def shown(path: Path) -> str:
+    """A path as errors show it: relative where that is shorter."""
+    try:
+        return str(path.absolute().relative_to(Path.cwd()))
+    except ValueError:
+        return str(path)
+
+
+def at(mark: Mark, address: str, error: GaitsimError) -> list[Fault]:
+    """Faults without a place of their own, moved to where the spec asks for the component."""
+    return [f if f.mark else Fault(f.message, mark, address) for f in error.faults]

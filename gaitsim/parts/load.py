@@ -1,0 +1,109 @@
+"""From a component file to a Primitive: checked, executed, audited."""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from gaitsim.component import Component, Input, Output, Part
+from gaitsim.errors import Fault, InvalidComponent, Mark, did_you_mean
+from gaitsim.parts.audit import audit
+from gaitsim.parts.check import check_names, parse
+from gaitsim.parts.dependency import output_dependencies
+from gaitsim.parts.ieee import ieee_math
+from gaitsim.parts.primitive import Primitive
+
+FUNCTIONS = ("start", "output", "update", "finish", "build")
+
+
+def digest_of(text: str) -> str:
+    """The version of a component: the digest of its content."""
+    return hashlib.sha256(text.encode()).hexdigest()
+
+
+def load_primitive(reference: str, path: Path, shown: str) -> Primitive:
+    """Load a component file; `shown` is how errors name it.
+
+    Errors: InvalidComponent with every fault of the file.
+    """
+    source = path.read_text(encoding="utf-8")
+    tree = parse(source, shown)
+    cls = component_class(execute(source, shown, ieee_math()))
+    faults = check_names(tree, cls.declarations, shown, source.splitlines())
+    faults += _part_faults(cls, shown)
+    if not faults:
+        faults = list(audit(source, shown).faults)
+    if faults:
+        raise InvalidComponent(faults)
+    return Primitive(
+        reference,
+        path,
+        shown,
+        source,
+        digest_of(source),
+        cls,
+        output_dependencies(tree, cls.declarations),
+        frozenset(name for name in FUNCTIONS if name in vars(cls)),
+    )
+
+
+def execute(source: str, file: str, mathematics: Any) -> dict[str, Any]:
+    """The namespace of a component file, with `math` replaced."""
+    namespace: dict[str, Any] = {"__name__": "component"}
+    try:
+        exec(compile(source, file, "exec"), namespace)
+    except Exception as error:
+        raise InvalidComponent(
+            Fault(f"{type(error).__name__}: {error}", _mark_of(error, source, file))
+        ) from error
+    for name, value in list(namespace.items()):
+        if value is math:
+            namespace[name] = mathematics
+    return namespace
+
+
+def component_class(namespace: dict[str, Any]) -> type[Component]:
+    """The one component that a file holds."""
+    found = [
+        value
+        for value in namespace.values()
+        if isinstance(value, type) and issubclass(value, Component) and value is not Component
+    ]
+    (cls,) = found
+    return cls
+
+
+def function_of(cls: type[Component], name: str) -> Callable[..., Any]:
+    """A component's function, free of its class."""
+    function: Callable[..., Any] = vars(cls)[name].__func__
+    return function
+
+
+def _mark_of(error: Exception, source: str, file: str) -> Mark:
+    trace = error.__traceback__
+    line = 0
+    while trace is not None:
+        if trace.tb_frame.f_code.co_filename == file:
+            line = trace.tb_lineno
+        trace = trace.tb_next
+    lines = source.splitlines()
+    text = lines[line - 1] if 0 < line <= len(lines) else ""
+    return Mark(file, line, len(text) - len(text.lstrip()) + 1 if text else 0, text)
+
+
+def _part_faults(cls: type[Component], file: str) -> list[Fault]:
+    """Wiring of inner parts that names ports this component does not have."""
+    inputs = [name for name, d in cls.declarations.items() if isinstance(d, Input)]
+    outputs = [name for name, d in cls.declarations.items() if isinstance(d, Output)]
+    faults = []
+    for name, part in cls.declarations.items():
+        if isinstance(part, Part):
+            wrong = [mine for mine, _ in part.reads if mine not in inputs]
+            wrong += [mine for _, mine in part.sends if mine not in inputs + outputs]
+            for word in wrong:
+                hint = did_you_mean(word, inputs + outputs)
+                faults.append(Fault(f"{name} is wired to {word}, which is not declared. {hint}", Mark(file)))
+    return faults

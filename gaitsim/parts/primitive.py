@@ -1,0 +1,85 @@
+"""A component file once it is loaded: declarations, functions, and who depends on what."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TypeVar
+
+from gaitsim import component as c
+
+D = TypeVar("D")
+
+
+@dataclass(frozen=True, eq=False)
+class Primitive:
+    """One Python component file."""
+
+    reference: str
+    path: Path
+    shown: str
+    source: str
+    digest: str
+    cls: type[c.Component]
+    dependencies: Mapping[str, frozenset[str]]
+    functions: frozenset[str]
+
+    def declared(self, kind: type[D]) -> dict[str, D]:
+        """The declarations of one kind, in the order of the file."""
+        return {n: d for n, d in self.cls.declarations.items() if isinstance(d, kind)}
+
+    @cached_property
+    def parameters(self) -> dict[str, c.Parameter]:
+        return self.declared(c.Parameter)
+
+    @cached_property
+    def inputs(self) -> dict[str, c.Input]:
+        return self.declared(c.Input)
+
+    @cached_property
+    def outputs(self) -> dict[str, c.Output]:
+        return self.declared(c.Output)
+
+    @cached_property
+    def states(self) -> dict[str, c.State]:
+        return self.declared(c.State)
+
+    @cached_property
+    def metrics(self) -> dict[str, c.Metric]:
+        return self.declared(c.Metric)
+
+    @cached_property
+    def parts(self) -> dict[str, c.Part]:
+        return self.declared(c.Part)
+
+    @cached_property
+    def frames(self) -> dict[str, c.Frame]:
+        return self.declared(c.Frame)
+
+    @cached_property
+    def attachments(self) -> dict[str, c.Attachment]:
+        return self.declared(c.Attachment)
+
+    @cached_property
+    def points(self) -> dict[str, c.Points]:
+        return self.declared(c.Points)
+
+    @cached_property
+    def options(self) -> dict[str, c.Option]:
+        return self.declared(c.Option)
+
+    @property
+    def kind(self) -> str:
+        return self.reference.split("/")[0]
+
+    @property
+    def doc(self) -> str:
+        return (self.cls.__doc__ or "").strip()
+
+    @property
+    def words(self) -> list[str]:
+        """What an entry of a spec may say to this part."""
+        said = c.Parameter | c.Input | c.Attachment | c.Points | c.Option | c.Part
+        return list(self.declared(said))  # type: ignore[arg-type]

@@ -1,0 +1,107 @@
+"""MuJoCo's model and data for one program, rebuilt when a candidate changes the mechanics."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from gaitsim.compiler.mjcf import Assembly, assemble, tie_place
+from gaitsim.compiler.program import Program
+from gaitsim.errors import Fault, InvalidSpec
+from gaitsim.simulation.failure import of_mechanics
+
+
+@dataclass
+class Body:
+    """The mechanics of one program, posed anew for each candidate."""
+
+    program: Program
+    _built_for: tuple[float, ...] | None = None
+    _assembly: Assembly | None = field(default=None, repr=False)
+    data: Any = None
+
+    @property
+    def assembly(self) -> Assembly:
+        assert self._assembly is not None
+        return self._assembly
+
+    @property
+    def model(self) -> Any:
+        return self.assembly.model
+
+    @cached_property
+    def _mechanical(self) -> tuple[int, ...]:
+        """The numbers that the MuJoCo model is made of."""
+        found: list[int] = []
+        for part in self.program.model.parts:
+            if "build" in part.type.functions:
+                found += part.numbers.values()
+                found += [i for places in part.points.values() for place in places for i in place.at]
+        return tuple(found)
+
+    def pose(self, values: Sequence[float]) -> None:
+        """Build if needed, reset all of MuJoCo's state, and set the initial coordinates."""
+        key = tuple(values[i] for i in self._mechanical)
+        if self._assembly is None or key != self._built_for:
+            self._assembly = assemble(self.program.model, values)
+            self._built_for = key
+            self.data = mujoco.MjData(self.model)
+        mujoco.mj_resetData(self.model, self.data)
+        # MuJoCo prints and logs a warning the first time only; the loops watch for themselves.
+        self.data.warning.number[:] = 1
+        for address, number in self.program.model.initial.items():
+            if address in self._coordinates:
+                array, place = self._coordinates[address]
+                getattr(self.data, array)[place] = values[number]
+        mujoco.mj_forward(self.model, self.data)
+
+    @cached_property
+    def _coordinates(self) -> dict[str, tuple[str, int]]:
+        """Outputs that are joint coordinates, by address: which array, which place."""
+        parts = self.program.model.parts
+        return {
+            f"{parts[i].address}.{tie.port}": (tie.field, tie_place(self.model, tie))
+            for i, tie in self.assembly.reads
+            if tie.field in ("qpos", "qvel")
+        }
+
+    def check_initial(self) -> None:
+        """Every initial value is for a joint coordinate or a state.
+
+        Errors: InvalidSpec.
+        """
+        self.pose(self.program.model.values())
+        for address, number in self.program.model.initial.items():
+            part, name = self.program.port(address)
+            if address not in self._coordinates and name not in self.program.model.parts[part].type.states:
+                mark = self.program.model.numbers[number].mark
+                rule = f"{address} is computed, so it has no initial value; set a joint's coordinate or a state."
+                raise InvalidSpec(Fault(rule, mark, "initial"))
+
+    def initial_states(self, values: Sequence[float]) -> dict[int, float]:
+        """Initial values of states: place in the table -> value."""
+        found = {}
+        for address, number in self.program.model.initial.items():
+            if address not in self._coordinates:
+                found[self.program.states.place(*self.program.port(address))] = values[number]
+        return found
+
+    def divergence(self, step: int) -> str | None:
+        """Which joints are no longer at a finite place, in words."""
+        if np.all(np.isfinite(self.data.qpos)) and np.all(np.isfinite(self.data.qvel)):
+            return None
+        wrong = [
+            address
+            for address, (array, place) in self._coordinates.items()
+            if not np.isfinite(getattr(self.data, array)[place])
+        ]
+        return of_mechanics(self.program, wrong, step)
+
+    def array(self, name: str) -> Any:
+        """One of MuJoCo's arrays as a flat numpy view."""
+        return np.ravel(getattr(self.data, name))

@@ -1,0 +1,70 @@
+"""Why a run failed: the component, the function, the moment and the values, in one sentence."""
+
+from __future__ import annotations
+
+import traceback
+from typing import Any
+
+import numpy as np
+
+from gaitsim.compiler.program import Floats, Program
+from gaitsim.parts.load import function_of
+from gaitsim.simulation.view import View, views
+
+
+def of_component(
+    program: Program, part: int, stage: str, step: int, p: Floats, u: Floats, x: Floats, y: Floats
+) -> str:
+    """The failure of a part in native code, told by calling its Python function once more."""
+    p_, u_, x_, y_ = views(program, part, p, u, x.copy(), y.copy())
+    arguments: dict[str, tuple[Any, ...]] = {
+        "start": (p_, u_, x_),
+        "output": (p_, u_, x_, y_),
+        "update": (p_, u_, x_, y_, program.model.simulate.step),
+    }
+    try:
+        with np.errstate(all="ignore"):
+            function_of(program.model.parts[part].type.cls, stage)(*arguments[stage])
+    except Exception as error:
+        return of_exception(program, part, stage, step, error)
+    first = views(program, part, p, u, x, y)
+    return of_values(program, part, stage, step, first[3] if stage == "output" else first[2])
+
+
+def of_exception(program: Program, part: int, stage: str, step: int, error: Exception) -> str:
+    """An exception that a component raised, with its line."""
+    lines = [
+        frame.lineno
+        for frame in traceback.extract_tb(error.__traceback__)
+        if frame.filename == program.model.parts[part].type.shown
+    ]
+    place = f"{program.model.parts[part].type.shown}:{lines[-1]}" if lines else stage
+    said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return f"{_who(program, part)} raised in {stage} at {_when(program, step)} ({place}): {said}"
+
+
+def of_values(program: Program, part: int, stage: str, step: int, fields: View) -> str:
+    """Which outputs or states are no longer finite."""
+    names = program.model.parts[part].type
+    owned = names.outputs if stage == "output" else names.states
+    wrong = [
+        f"{name} = {np.ravel(getattr(fields, name))[~np.isfinite(np.ravel(getattr(fields, name)))][0]}"
+        for name in owned
+        if not np.all(np.isfinite(getattr(fields, name)))
+    ]
+    return f"{_who(program, part)} gives no finite number in {stage} at {_when(program, step)}: {', '.join(wrong)}"
+
+
+def of_mechanics(program: Program, wrong: list[str], step: int) -> str:
+    """Joint coordinates that are no longer finite."""
+    said = f" in {', '.join(wrong)}" if wrong else ""
+    return f"the mechanics diverged{said} at {_when(program, step)}; try a shorter step"
+
+
+def _who(program: Program, part: int) -> str:
+    found = program.model.parts[part]
+    return f"{found.address} ({found.type.reference})"
+
+
+def _when(program: Program, step: int) -> str:
+    return f"{step * program.model.simulate.step:g} s"

@@ -1,0 +1,105 @@
+"""One simulation: a program and a candidate in, an Outcome out."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from types import SimpleNamespace
+from typing import Any, Literal
+
+import numpy as np
+
+from gaitsim.compiler.program import Floats, Program, measures
+from gaitsim.errors import SimulationFailed
+from gaitsim.model import Model, metric_names
+from gaitsim.parts.load import function_of
+from gaitsim.simulation.ending import Ending
+from gaitsim.simulation.outcome import Outcome, Trajectory
+from gaitsim.simulation.python_loop import Normal
+from gaitsim.simulation.view import views
+
+Mode = Literal["rapid", "normal"]
+
+
+@dataclass
+class Simulator:
+    """Runs candidates of one model; what it prepares is kept between them, what they leave is not."""
+
+    model: Model
+    mode: Mode = "rapid"
+    program: Program = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.program = Program(self.model)
+        self._loop = self._prepared()
+        self._loop.body.check_initial()
+
+    def _prepared(self) -> Any:
+        if self.mode == "normal":
+            return Normal(self.program)
+        from gaitsim.simulation.rapid import Rapid
+
+        return Rapid(self.program)
+
+    @property
+    def xml(self) -> str:
+        """The mechanics as MJCF."""
+        return str(self._loop.body.assembly.xml)
+
+    def run(self, candidate: Sequence[float] | None = None, recorded: bool = False) -> Outcome:
+        """Simulate one candidate: the values of `model.free`, or None for their starts."""
+        began = time.perf_counter()
+        simulate = self.model.simulate
+        steps = max(1, round(simulate.duration / simulate.step))
+        try:
+            values = self.model.values(candidate)
+            with np.errstate(all="ignore" if self.mode == "rapid" else "warn"):
+                ending: Ending = self._loop.run(values, steps, recorded)
+        except SimulationFailed as error:
+            wall = time.perf_counter() - began
+            return Outcome("failed", str(error), 0, simulate.step, {}, None, wall)
+        metrics = {} if ending.failure else self._metrics(ending)
+        score, reason = (None, ending.failure) if ending.failure else self._score(metrics, values)
+        status = "failed" if reason else "stopped" if ending.stopped_by is not None else "completed"
+        if ending.stopped_by is not None:
+            reason = self.model.parts[ending.stopped_by].address
+        trajectory = self._trajectory(ending.record) if ending.record is not None else None
+        wall = time.perf_counter() - began
+        return Outcome(status, reason or "", ending.steps, simulate.step, metrics, score, wall, trajectory)
+
+    def _metrics(self, ending: Ending) -> dict[str, float]:
+        found: dict[str, float] = {}
+        nothing = np.zeros(0)
+        for i, part in measures(self.model):
+            m = SimpleNamespace(**dict.fromkeys(part.type.metrics, math.nan))
+            p, _, x, _ = views(self.program, i, ending.p, nothing, ending.x, nothing)
+            function_of(part.type.cls, "finish")(p, x, m)
+            found |= {name: float(getattr(m, own)) for own, name in metric_names(part).items()}
+        return found
+
+    def _score(self, metrics: dict[str, float], values: Sequence[float]) -> tuple[float | None, str | None]:
+        """The cost, or why there is none."""
+        objective = self.model.objective
+        if objective is None:
+            return None, None
+        part = objective.part
+        wired = {name: metrics[metric] for name, metric in objective.metrics.items()}
+        constants = {name: values[index] for name, index in part.constants.items()}
+        defaults = {n: d.default for n, d in part.type.inputs.items() if d.default is not None}
+        numbers = {name: np.float64(values[part.numbers[name]]) for name in part.type.parameters}
+        inputs = {n: np.float64(v) for n, v in (defaults | constants | wired).items()}
+        y = SimpleNamespace(cost=math.nan)
+        function_of(part.type.cls, "output")(SimpleNamespace(**numbers), SimpleNamespace(**inputs), None, y)
+        cost = float(y.cost)
+        if math.isfinite(cost):
+            return cost, None
+        missing = ", ".join(f"{metric} = {metrics[metric]:g}" for metric in objective.metrics.values())
+        return None, f"the objective ({part.type.reference}) gives no finite cost from {missing}"
+
+    def _trajectory(self, record: Floats) -> Trajectory:
+        program = self.program
+        units = [o.unit for part in self.model.parts for o in part.type.outputs.values()]
+        times = np.arange(len(record)) * self.model.simulate.step
+        return Trajectory(times, program.signals, tuple(units), record[:, program.signal_places])

@@ -1,0 +1,305 @@
+"""The text of a spec as data that knows its places: YAML with five scalar rules of our own."""
+
+from __future__ import annotations
+
+import math
+import re
+import stat
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Union
+
+import yaml
+
+from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, did_you_mean
+from gaitsim.spec.syntax import NO_ANCHORS, ONE_DOCUMENT, explained
+
+SIZE_LIMIT = 5_000_000
+DEPTH_LIMIT = 100
+
+_LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+_INTEGER = re.compile(r"[-+]?(0|[1-9][0-9]*)")
+_FLOAT = re.compile(r"[-+]?((0|[1-9][0-9]*)(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?")
+_WORDS: dict[str, bool | None] = {"": None, "~": None, "null": None, "true": True, "false": False}
+_BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
+_CONTROL = re.compile("[^\t\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_SIDE = re.compile(r"\{(other|side)\}")
+_HIDDEN = re.compile("⟨(other|side)⟩")
+_EMPTY = 'there is nothing in it; write "parts:" and below it the parts.'
+
+
+@dataclass(frozen=True)
+class Scalar:
+    """One value and its place."""
+
+    value: bool | int | float | str | None
+    mark: Mark
+
+
+@dataclass(frozen=True)
+class Sequence:
+    """A list of nodes and its place."""
+
+    items: tuple[Node, ...]
+    mark: Mark
+
+
+@dataclass(frozen=True)
+class Mapping:
+    """Nodes by key, in the order of the text, with the place of each key.
+
+    `swapped` are the words that an entry kept from a component it no longer uses.
+    """
+
+    entries: dict[str, Node]
+    keys: dict[str, Mark]
+    mark: Mark
+    swapped: frozenset[str] = frozenset()
+
+
+Node = Union[Scalar, Sequence, Mapping]  # noqa: UP007 (the names below it must exist at run time)
+
+
+def read(path: Path, shown: str | None = None) -> Mapping:
+    """The document in a file; `shown` is how errors name that file."""
+    name = str(path) if shown is None else shown
+    try:
+        status = path.stat()
+        if stat.S_ISDIR(status.st_mode):
+            inside = ", ".join(_specs_in(path))
+            hint = f"name one spec in it: {inside}" if inside else "it holds no .yaml file"
+            raise _refused(name, f"this is a folder; {hint}.")
+        if not stat.S_ISREG(status.st_mode):
+            raise _refused(name, "this is a pipe or a device; save the spec in a file and name it.")
+        if status.st_size > SIZE_LIMIT:
+            size, limit = status.st_size / 1e6, SIZE_LIMIT // 1_000_000
+            rule = f"this file has {size:.1f} MB and the limit is {limit} MB"
+            raise _refused(name, f"{rule}; name a spec, and keep data in other files.")
+        data = path.read_bytes()
+    except (FileNotFoundError, NotADirectoryError) as error:
+        raise _refused(name, _missing(path)) from error
+    except PermissionError as error:
+        rule = "there is no permission to read it"
+        raise _refused(name, f"{rule}; allow it with: chmod u+r {name}") from error
+    except (OSError, ValueError) as error:  # ValueError: a NUL in the path itself
+        reason = getattr(error, "strerror", None) or str(error)
+        raise _refused(name, f"it cannot be read ({reason}); check the path.") from error
+    return parse(_decoded(data, name), name)
+
+
+def parse(text: str, file: str) -> Mapping:
+    """The document that a text holds; `file` is how errors name the text."""
+    reader = _Reader(text, file)
+    top = reader.document()
+    if top is None:
+        raise _refused(file, _EMPTY)
+    if not isinstance(top, Mapping):
+        kind = "a list" if isinstance(top, Sequence) else "a bare value"
+        raise InvalidSpec(
+            Fault(f'this is {kind}; a spec is keys with values, such as "parts: ...".', top.mark)
+        )
+    return top
+
+
+def parse_value(text: str, file: str) -> Node:
+    """The value that a piece of text holds, by the same rules; its marks have no line."""
+    value = _Reader(text, file, lines_count=False).document()
+    if value is None:
+        raise _refused(file, "there is no value; write one, in quotes if it begins with #.")
+    return value
+
+
+def plain(node: Node) -> Any:
+    """The node as plain Python data."""
+    if isinstance(node, Mapping):
+        return {key: plain(value) for key, value in node.entries.items()}
+    if isinstance(node, Sequence):
+        return [plain(item) for item in node.items]
+    return node.value
+
+
+def dump(data: Any) -> str:
+    """A mapping of plain data as YAML that parse() reads back identically."""
+    if not isinstance(data, dict):
+        raise TypeError(f"a document is a dict, not a {type(data).__name__}")
+    node = _represented(data)
+    node.flow_style = not data
+    text = yaml.serialize(node, Dumper=_Dumper, allow_unicode=True, width=2**31 - 1)
+    return str(text)
+
+
+def scalar(text: str) -> bool | int | float | str | None:
+    """What an unquoted text means; infinite if its number is too large."""
+    if text in _WORDS:
+        return _WORDS[text]
+    if _INTEGER.fullmatch(text):
+        return int(text) if len(text) <= 308 else math.inf
+    return float(text) if _FLOAT.fullmatch(text) else text
+
+
+class _Reader:
+    """Turns YAML's events into nodes and collects what it refuses."""
+
+    def __init__(self, text: str, file: str, lines_count: bool = True) -> None:
+        # Events rather than yaml.compose: composing loses anchors and recurses without a limit.
+        text = text.removeprefix("\ufeff")
+        # {other} and {side} belong to our grammar; between braces YAML would read a mapping.
+        self.text, self.file, self.lines_count = _SIDE.sub(r"⟨\1⟩", text), file, lines_count
+        self.lines = _BREAK.split(text)
+        self.faults = Faults()
+        self.events: Iterator[yaml.Event] = iter(())
+
+    def mark(self, line: int, column: int) -> Mark:
+        if not self.lines_count:
+            return Mark(self.file)
+        text = self.lines[line] if line < len(self.lines) else ""
+        if column > 200:  # a frame of a very long line shows nothing
+            text = ""
+        shown = "".join(letter if letter.isprintable() else " " for letter in text[:240])
+        return Mark(self.file, line + 1, column + 1, shown)
+
+    def document(self) -> Node | None:
+        node: Node | None = None
+        for number, line in enumerate(self.lines):
+            if found := _CONTROL.search(line):
+                rule = f"U+{ord(found[0]):04X} is a control character, which a spec may not hold"
+                self.faults.add(f"{rule}; remove it.", self.mark(number, found.start()))
+        self.faults.raise_if_any()
+        self.events = yaml.parse(self.text, Loader=_LOADER)
+        try:
+            for event in self.events:
+                if isinstance(event, yaml.DocumentStartEvent) and node is not None:
+                    self.fault(f"a second document begins here; {ONE_DOCUMENT}", event)
+                    break
+                if isinstance(event, yaml.NodeEvent):
+                    node = self.node(event, 1)
+        except yaml.MarkedYAMLError as error:
+            message, line_number, column = explained(error, self.lines)
+            self.faults.add(message, self.mark(line_number, column))
+        self.faults.raise_if_any()
+        return node
+
+    def fault(self, message: str, event: yaml.Event) -> None:
+        self.faults.add(message, self.place(event))
+
+    def place(self, event: yaml.Event) -> Mark:
+        begin = event.start_mark
+        return self.mark(begin.line, begin.column) if begin else Mark(self.file)
+
+    def node(self, event: yaml.Event, depth: int) -> Node:
+        if depth > DEPTH_LIMIT:
+            rule = f"this is nested more than {DEPTH_LIMIT} levels deep"
+            self.fault(f"{rule}; put an inner part into a composite of its own.", event)
+            self.faults.raise_if_any()
+        mark = self.place(event)
+        if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None):
+            self.fault(NO_ANCHORS, event)
+        if tag := getattr(event, "tag", None):
+            short = str(tag).replace("tag:yaml.org,2002:", "!!")
+            self.fault(f"{short} is a tag, which a spec may not have; remove it.", event)
+        if isinstance(event, yaml.SequenceStartEvent):
+            items = self.until(yaml.SequenceEndEvent)
+            return Sequence(tuple(self.node(item, depth + 1) for item in items), mark)
+        if isinstance(event, yaml.MappingStartEvent):
+            return self.mapping(mark, depth)
+        if isinstance(event, yaml.ScalarEvent):
+            written = _HIDDEN.sub(r"{\1}", event.value)
+            value = written if event.style else scalar(written)
+            if value in (math.inf, -math.inf):
+                self.fault("this number is too large; write one below 1.8e308.", event)
+            return Scalar(value, mark)
+        return Scalar(None, mark)
+
+    def mapping(self, mark: Mark, depth: int) -> Mapping:
+        entries: dict[str, Node] = {}
+        keys: dict[str, Mark] = {}
+        for event in self.until(yaml.MappingEndEvent):
+            merge = isinstance(event, yaml.ScalarEvent) and not event.style and event.value == "<<"
+            key = self.node(event, depth + 1)
+            value_event = next(self.events)
+            if merge:
+                self.fault(NO_ANCHORS, event)
+                if isinstance(value_event, yaml.AliasEvent):
+                    continue  # one mistake, said once
+            value = self.node(value_event, depth + 1)
+            word = key.value if isinstance(key, Scalar) else None
+            if not isinstance(word, str):
+                written = getattr(event, "value", "")
+                move = f'it in quotes: "{written}"' if written else "a word before the colon"
+                self.fault(f"a key must be text; write {move}.", event)
+            elif word in entries:
+                first = f" (first in line {keys[word].line})" if self.lines_count else ""
+                rule = f"{word} stands here twice{first}"
+                self.fault(f"{rule}; remove or rename one of the two.", event)
+            else:
+                entries[word], keys[word] = value, key.mark
+        return Mapping(entries, keys, mark)
+
+    def until(self, end: type[yaml.Event]) -> Iterator[yaml.Event]:
+        while not isinstance(event := next(self.events), end):
+            yield event
+
+
+def _decoded(data: bytes, name: str) -> str:
+    move = "save it as text in UTF-8, or name another file"
+    if (zero := data.find(b"\0")) >= 0:
+        raise _refused(name, f"byte {zero} is NUL, so this is not a text in UTF-8; {move}.")
+    try:
+        return data.decode("utf-8")
+    except UnicodeDecodeError as error:
+        found = f"byte {error.start} (0x{data[error.start]:02x}, in line"
+        line = data.count(b"\n", 0, error.start) + 1
+        raise _refused(name, f"{found} {line}) is not UTF-8; {move}.") from error
+
+
+def _specs_in(folder: Path) -> list[str]:
+    try:
+        return sorted(path.name for path in folder.glob("*.yaml"))
+    except OSError:
+        return []
+
+
+def _missing(path: Path) -> str:
+    if path.is_symlink():
+        return f"this links to {path.readlink()}, which does not exist; mend the link."
+    if not path.parent.is_dir():
+        return f"there is no folder {path.parent}; check the path."
+    names = _specs_in(path.parent)
+    hint = did_you_mean(path.name, names) if names else "Its folder holds no .yaml file."
+    return f"there is no such file. {hint}"
+
+
+def _refused(name: str, message: str) -> InvalidSpec:
+    return InvalidSpec(Fault(message, Mark(name)))
+
+
+class _Dumper(yaml.SafeDumper):
+    """Quotes a text exactly if, unquoted, it would mean something else here."""
+
+    def resolve(self, kind: Any, value: Any, implicit: Any) -> str:
+        text = kind is not yaml.ScalarNode or not implicit[0] or isinstance(scalar(value), str)
+        return "text" if text else "other"
+
+
+def _represented(data: Any) -> Any:
+    if isinstance(data, dict):
+        if unfit := [key for key in data if not isinstance(key, str)]:
+            raise TypeError(f"a key is a text, not {unfit[0]!r}")
+        pairs = [(_represented(key), _represented(value)) for key, value in data.items()]
+        leaf = all(isinstance(value, yaml.ScalarNode) for _, value in pairs)
+        return yaml.MappingNode("text", pairs, flow_style=leaf)
+    if isinstance(data, list | tuple):
+        items = [_represented(item) for item in data]
+        leaf = all(isinstance(item, yaml.ScalarNode) for item in items)
+        return yaml.SequenceNode("text", items, flow_style=leaf)
+    if isinstance(data, str):
+        # Escapes for line breaks and the like: YAML folds them in its other styles.
+        quotes = None if isinstance(scalar(data), str) and data != "<<" else "'"
+        return yaml.ScalarNode("text", data, style=quotes if data.isprintable() else '"')
+    if data is None or isinstance(data, bool):
+        return yaml.ScalarNode("other", {None: "null", True: "true", False: "false"}[data])
+    if isinstance(data, int) or (isinstance(data, float) and math.isfinite(data)):
+        number = int.__repr__(data) if isinstance(data, int) else float.__repr__(data)
+        return yaml.ScalarNode("other", number)
+    raise TypeError(f"a document cannot hold {data!r}")

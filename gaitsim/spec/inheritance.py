@@ -1,0 +1,189 @@
+"""One spec from several: a parent by `extends:`, and single settings from the command line."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable
+from pathlib import Path
+
+from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, Usage
+from gaitsim.spec import document
+from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, plain
+
+VALUE_KEYS = frozenset({"value", "tune", "spread", "source"})
+_SECTIONS = frozenset(
+    {"about", "gaitsim", "initial", "objective", "parameters", "simulate", "study", "use_for"}
+)
+_SEARCHED = ("measures", "parts")
+
+
+def merged(base: Mapping, over: Mapping) -> Mapping:
+    """The base with another document laid over it; null removes a key.
+
+    A null that finds nothing to remove stays: it may mean a part of a composite further down.
+    """
+    entries, keys = dict(base.entries), dict(base.keys)
+    for key, node in over.entries.items():
+        _put(entries, keys, key, node, over.keys[key])
+    return Mapping(entries, keys, over.mark, _swapped(base, over))
+
+
+def _swapped(base: Mapping, over: Mapping) -> frozenset[str]:
+    """The words that a part keeps from another component, and may have to drop."""
+    old, new = base.entries.get("use"), over.entries.get("use")
+    if old is None or new is None or plain(old) == plain(new):
+        return base.swapped | over.swapped
+    return base.swapped | frozenset(base.entries)
+
+
+def with_parents(
+    path: Path, shown: str, read: Callable[[Path, str], Mapping] = document.read
+) -> Mapping:
+    """The document in a file, laid over the parents that its `extends:` names."""
+    documents = [read(path, shown)]
+    names, seen = [shown], [os.path.realpath(path)]
+    while "extends" in documents[-1].entries:
+        parent = documents[-1].entries["extends"]
+        if not isinstance(parent, Scalar) or not isinstance(parent.value, str):
+            rule = "extends names one parent"
+            raise InvalidSpec(
+                Fault(f"{rule}; write a file, such as extends: walk.yaml.", parent.mark, "extends")
+            )
+        path, shown = path.parent / parent.value, str(Path(shown).parent / parent.value)
+        names.append(shown)
+        if os.path.realpath(path) in seen:
+            ring = " -> ".join(names[seen.index(os.path.realpath(path)) :])
+            rule = f"these extend each other in a ring: {ring}"
+            raise InvalidSpec(Fault(f"{rule}; remove one extends.", parent.mark, "extends"))
+        seen.append(os.path.realpath(path))
+        documents.append(_parent(path, shown, parent.mark, read))
+    result, *children = [without(each, "extends") for each in reversed(documents)]
+    for child in children:
+        result = merged(result, child)
+    return result
+
+
+def split_setting(text: str, origin: str = "--set") -> tuple[str, str]:
+    """The address and the value of a setting such as `leg.knee.stiffness=5`."""
+    address, equals, value = (piece.strip() for piece in text.partition("="))
+    if not equals:
+        rule = "a setting is address=value"
+        raise Usage(f"{origin} {text}: {rule}; write, for example, {origin} leg.knee.damping=5.")
+    if not value:
+        move = 'write null to remove it, or "" for an empty text'
+        raise Usage(f"{origin} {text}: there is no value after the =; {move}.")
+    _words(address, f"{origin} {text}")
+    return address, value
+
+
+def override(spec: Mapping, address: str, text: str, origin: str = "--set") -> Mapping:
+    """The spec with one value set, laid over what stands at its address."""
+    mark = Mark(f"{origin} {address}={text}")
+    words = _sectioned(spec, _words(address, mark.file))
+    if len(words) > document.DEPTH_LIMIT:
+        raise Usage(f"{mark}: this address has {len(words)} words; name a part of the spec.")
+    value = document.parse_value(text, mark.file)
+    faults = Faults()
+    result = _with(spec, words, (), value, mark, faults)
+    faults.raise_if_any()
+    assert isinstance(result, Mapping)  # a spec stays a mapping
+    return result
+
+
+def _put(entries: dict[str, Node], keys: dict[str, Mark], key: str, over: Node, mark: Mark) -> None:
+    """Lay a node over an entry, or remove that entry."""
+    if isinstance(over, Scalar) and over.value is None and key in entries:
+        del entries[key], keys[key]
+        return
+    if isinstance(over, Mapping) and not _is_value(over):
+        base = entries.get(key)
+        over = merged(base, over) if isinstance(base, Mapping) and not _is_value(base) else over
+    entries[key], keys[key] = over, mark
+
+
+def _is_value(node: Node) -> bool:
+    """Whether a mapping is one number with what belongs to it: value, tune, spread, source."""
+    return isinstance(node, Mapping) and bool(node.entries) and set(node.entries) <= VALUE_KEYS
+
+
+def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], Mapping]) -> Mapping:
+    """A parent; what is wrong with the file as a whole is said where it is named."""
+    try:
+        return read(path, shown)
+    except InvalidSpec as error:
+        raise InvalidSpec(
+            fault
+            if fault.mark and fault.mark.line
+            else Fault(f"{fault.mark or shown}: {fault.message}", mark, "extends")
+            for fault in error.faults
+        ) from error
+
+
+def without(node: Mapping, *words: str) -> Mapping:
+    """The mapping without some of its keys."""
+    entries = {name: inner for name, inner in node.entries.items() if name not in words}
+    return Mapping(entries, {name: node.keys[name] for name in entries}, node.mark, node.swapped)
+
+
+def _words(address: str, said: str) -> tuple[str, ...]:
+    words = tuple(word.strip() for word in address.split("."))
+    if not all(words):
+        rule = "an address is words with one dot between them"
+        raise Usage(f"{said}: {rule}, such as leg.knee.damping.")
+    return words
+
+
+def _sectioned(spec: Mapping, words: tuple[str, ...]) -> tuple[str, ...]:
+    """The address from the top of the spec: which section its first word belongs to."""
+    first, *rest = words
+    if first == "initial" and rest:
+        return first, ".".join(rest)
+    if first in _SECTIONS or first in spec.entries or first in _SEARCHED:
+        return words
+    measures = spec.entries.get("measures")
+    found = isinstance(measures, Mapping) and first in measures.entries
+    return ("measures" if found else "parts", *words)
+
+
+def _with(
+    node: Node | None,
+    words: tuple[str, ...],
+    walked: tuple[str, ...],
+    value: Node,
+    mark: Mark,
+    faults: Faults,
+) -> Node:
+    """The node with the value laid at the end of the words, walking down from `walked`."""
+    word, *rest = words
+    path = (*walked, word)
+    if isinstance(node, Sequence):
+        last = len(node.items) - 1
+        if not (word.isascii() and word.isdigit() and len(word) < 10 and int(word) <= last):
+            rule = f"{word} is no item of this list" if node.items else "this list is empty"
+            move = f"number its items from 0 to {last}" if node.items else "set the whole list"
+            faults.add(f"{rule}; {move}.", mark, _address(walked))
+            return node
+        at = int(word)
+        item = _with(node.items[at], tuple(rest), path, value, mark, faults) if rest else value
+        return Sequence((*node.items[:at], item, *node.items[at + 1 :]), node.mark)
+    if isinstance(node, Scalar) and node.value is not None:
+        rule = f"{walked[-1]} is {_said(node.value)}, with no {word} inside"
+        faults.add(f"{rule}; set {_address(walked)} as a whole.", mark, _address(walked))
+        return node
+    ground = node if isinstance(node, Mapping) else Mapping({}, {}, mark)
+    entries, keys = dict(ground.entries), dict(ground.keys)
+    if rest:
+        entries[word] = _with(entries.get(word), tuple(rest), path, value, mark, faults)
+        keys.setdefault(word, mark)
+    else:
+        _put(entries, keys, word, value, mark)
+    return Mapping(entries, keys, ground.mark, ground.swapped)
+
+
+def _said(value: bool | float | str | None) -> str:
+    return str(value).lower() if isinstance(value, bool) else str(value)
+
+
+def _address(path: tuple[str, ...]) -> str:
+    """The dotted address as users write it: parts and measures need not be named."""
+    return ".".join(path[1:] if path[0] in _SEARCHED and len(path) > 1 else path)

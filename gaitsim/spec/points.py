@@ -1,0 +1,83 @@
+"""Points on segments: `{on: shank, at: [-4 cm, 0 m, 30 %]}`, each coordinate a number of its own."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gaitsim.component import Parameter
+from gaitsim.errors import Faults
+from gaitsim.model import Place
+from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
+from gaitsim.spec.numbers import NumberTable
+from gaitsim.spec.scope import Where, absolute
+
+_LENGTH = Parameter("m", "a coordinate")
+_FRACTION = Parameter("1", "a fraction of the segment's length")
+_FIELDS = {"on", "at"}
+
+
+@dataclass
+class PointReader:
+    """Reads lists of points; `%` needs the lengths of segments, so reading waits for all of them."""
+
+    table: NumberTable
+    faults: Faults
+    _waiting: list[tuple[str, Sequence, Where, list[Place]]] = field(default_factory=list)
+
+    def later(self, name: str, node: Mapping, where: Where) -> list[Place]:
+        """The points of an entry, empty until `read_all`."""
+        given, places = node.entries.get(name), list[Place]()
+        if isinstance(given, Sequence):
+            self._waiting.append((name, given, where, places))
+        else:
+            rule = f"needs {name}, a list such as [{{on: shank, at: [-4 cm, 0 m, 30 %]}}]."
+            self.faults.add(rule, given.mark if given else where.mark, where.address)
+        return places
+
+    def read_all(self) -> None:
+        """Read every list that waits."""
+        for name, node, where, places in self._waiting:
+            for i, item in enumerate(node.items):
+                place = self._place(f"{name}.{i}", item, where)
+                if place:
+                    places.append(place)
+        self._waiting.clear()
+
+    def _place(self, name: str, node: Node, where: Where) -> Place | None:
+        address = f"{where.address}.{name}"
+        if not isinstance(node, Mapping) or set(node.entries) != _FIELDS:
+            self.faults.add("a point is {on: part, at: [x, y, z]}.", node.mark, address)
+            return None
+        on, at = node.entries["on"], node.entries["at"]
+        if not isinstance(at, Sequence) or len(at.items) != 3:
+            self.faults.add("at: is three coordinates, such as [-4 cm, 0 m, 30 %].", at.mark, address)
+            return None
+        if not isinstance(on, Scalar) or not isinstance(on.value, str):
+            self.faults.add("on: names a part or a frame, such as shank.", on.mark, address)
+            return None
+        frame = absolute(on.value, where, on.mark, self.faults)
+        if frame is None:
+            return None
+        x, y, z = (self._coordinate(f"{name}.at.{i}", item, where, frame) for i, item in enumerate(at.items))
+        return Place(frame, (x, y, z))
+
+    def _coordinate(self, name: str, node: Node, where: Where, frame: str) -> int:
+        address, logical = f"{where.address}.{name}", f"{where.logical}.{name}"
+        value = node.entries.get("value") if isinstance(node, Mapping) else node
+        text = value.value if isinstance(value, Scalar) else None
+        if not (isinstance(text, str) and text.rstrip().endswith("%")):
+            return self.table.add(address, logical, node, _LENGTH, where.scope.names)
+        length = self._length(frame)
+        if length is None:
+            rule = f"{frame} has no length, so % means nothing here; write a length, such as 12 cm."
+            self.faults.add(rule, node.mark, address)
+        return self.table.add(address, logical, node, _FRACTION, where.scope.names, fraction_of=length)
+
+    def _length(self, frame: str) -> int | None:
+        """The number that is the length of the segment a frame belongs to."""
+        owner = frame
+        while owner:
+            if f"{owner}.length" in self.table.index:
+                return self.table.index[f"{owner}.length"]
+            owner = owner.rpartition(".")[0]
+        return None

@@ -1,0 +1,159 @@
+"""What an entry says about its ports: constants, connections, attachments, options."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+
+from gaitsim.component import Input, Option, Parameter
+from gaitsim.errors import Faults, Mark, did_you_mean
+from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
+from gaitsim.spec.numbers import Names, NumberTable, is_value
+from gaitsim.spec.scope import Where, absolute
+
+_DELAY = Parameter("s", "a delay", bounds=(0, 3600))
+_FIELDS = ("from", "delay", "initial")
+
+
+@dataclass(frozen=True)
+class Wire:
+    """A connection as written: addresses absolute, aliases of composites not yet followed."""
+
+    source: str
+    target: str
+    delay: int | None
+    initial: Node | None
+    made_by: str
+    mark: Mark
+
+
+@dataclass(frozen=True)
+class Constant:
+    """A number written where a connection could be; its unit is that of the input inside."""
+
+    target: str
+    logical: str
+    node: Node
+    names: Names
+
+
+@dataclass
+class PortReader:
+    """Reads ports of entries into wires and constants."""
+
+    table: NumberTable
+    faults: Faults
+    wires: list[Wire] = field(default_factory=list)
+    constants: list[Constant] = field(default_factory=list)
+
+    def wire(self, source: str, target: str, where: Where) -> None:
+        """A connection that a part makes with its own inner part."""
+        self.wires.append(Wire(source, target, None, None, where.address, where.mark))
+
+    def input(self, name: str, declared: Input, node: Mapping, where: Where) -> None:
+        """Wire an input, or give it a constant."""
+        given, port = node.entries.get(name), f"{where.address}.{name}"
+        if given is None:
+            return
+        if isinstance(given, Mapping) and not is_value(given):
+            if declared.sums:
+                self.faults.add(f"{name} sums its senders; write to: {port} at the sender.", given.mark, port)
+            else:
+                self._from(given, port, f"{where.logical}.{name}", where)
+            return
+        text = given.value if isinstance(given, Scalar) else None
+        if isinstance(text, str) and text[:1] not in "=+-.0123456789":
+            self.faults.add(f"to wire this input, write {{from: {text}}}.", given.mark, port)
+            return
+        self.constants.append(Constant(port, f"{where.logical}.{name}", given, where.scope.names))
+
+    def to(self, node: Mapping, outputs: list[str], where: Where) -> None:
+        """Send outputs to summing inputs: `to: port`, `to: [ports]`, or `to: {output: port(s)}`."""
+        given = node.entries.get("to")
+        if given is None:
+            return
+        if isinstance(given, Mapping) and "port" not in given.entries:
+            for name, target in given.entries.items():
+                if name in outputs:
+                    self._send(name, target, where)
+                else:
+                    hint = did_you_mean(name, outputs)
+                    self.faults.add(f"{name} is no output of this part. {hint}", given.keys[name], where.address)
+        elif len(outputs) == 1:
+            self._send(outputs[0], given, where)
+        else:
+            names = ", ".join(outputs) or "none"
+            rule = f"to: needs the name of an output (here: {names}); write to: {{output: part.port}}."
+            self.faults.add(rule, given.mark, where.address)
+
+    def attachments(self, names: Iterable[str], node: Mapping, where: Where) -> dict[str, str]:
+        """The frames that an entry is fastened to."""
+        found = {}
+        for name in names:
+            given = node.entries.get(name)
+            if given is None:
+                rule = f"is fastened to nothing; write {name}: part.frame (or world)."
+                self.faults.add(rule, where.mark, where.address)
+                continue
+            text = self._text(given, f"{name} names a frame, such as thigh.distal.", where)
+            frame = absolute(text, where, given.mark, self.faults) if text else None
+            if frame:
+                found[name] = frame
+        return found
+
+    def option(self, name: str, declared: Option, node: Mapping, where: Where) -> str:
+        """The word chosen for an option."""
+        given = node.entries.get(name)
+        value = given.value if isinstance(given, Scalar) else declared.default
+        if value in declared.choices and (given is None or isinstance(given, Scalar)):
+            return str(value)
+        choices = ", ".join(declared.choices)
+        said = "it is not said" if given is None else f'"{value}" is not among them'
+        mark = given.mark if given else where.mark
+        self.faults.add(f"{name} is one of {choices}; {said}.", mark, where.address)
+        return declared.choices[0]
+
+    def _from(self, given: Mapping, port: str, logical: str, where: Where) -> None:
+        for word, mark in given.keys.items():
+            if word not in _FIELDS:
+                self.faults.add(f"{word} is no field of a connection. {did_you_mean(word, _FIELDS)}", mark, port)
+        source = given.entries.get("from")
+        if source is None:
+            self.faults.add("a connection says from:, such as {from: soleus.force}.", given.mark, port)
+            return
+        text = self._text(source, "from: names an output, such as {from: soleus.force}.", where)
+        sender = absolute(text, where, source.mark, self.faults) if text else None
+        if sender:
+            delay = self._delay(given, port, logical, where)
+            self.wires.append(Wire(sender, port, delay, given.entries.get("initial"), "", source.mark))
+
+    def _send(self, output: str, node: Node, where: Where) -> None:
+        if isinstance(node, Sequence):
+            for item in node.items:
+                self._send(output, item, where)
+            return
+        source, delay, target = f"{where.address}.{output}", None, node
+        if isinstance(node, Mapping):
+            for word, mark in node.keys.items():
+                if word not in ("port", "delay"):
+                    self.faults.add(f"{word} is no field here. {did_you_mean(word, ('port', 'delay'))}", mark, source)
+            target = node.entries.get("port", node)
+        text = self._text(target, "to: names a summing input, such as soleus.excitation.", where)
+        found = absolute(text, where, target.mark, self.faults) if text else None
+        if found is None:
+            return
+        if isinstance(node, Mapping):
+            delay = self._delay(node, f"{source}.to.{found}", f"{where.logical}.{output}.to.{text}", where)
+        self.wires.append(Wire(source, found, delay, None, "", target.mark))
+
+    def _delay(self, node: Mapping, address: str, logical: str, where: Where) -> int | None:
+        delay = node.entries.get("delay")
+        if delay is None:
+            return None
+        return self.table.add(f"{address}.delay", f"{logical}.delay", delay, _DELAY, where.scope.names)
+
+    def _text(self, node: Node, rule: str, where: Where) -> str:
+        if isinstance(node, Scalar) and isinstance(node.value, str):
+            return node.value
+        self.faults.add(rule, node.mark, where.address)
+        return ""

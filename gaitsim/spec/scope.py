@@ -1,0 +1,82 @@
+"""Where a name in a spec is looked up: among siblings, then outwards as far as the same text reaches."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from gaitsim.errors import Faults, Mark, did_you_mean
+from gaitsim.model import WORLD
+from gaitsim.spec.numbers import Names
+
+_OTHER = {"l": "r", "r": "l"}
+
+
+@dataclass
+class Scope:
+    """The inside of one composite, or of the spec itself."""
+
+    address: str
+    logical: str
+    file: str
+    names: Names
+    reference: str = ""
+    children: dict[str, str] = field(default_factory=dict)  # name -> address
+    attachments: dict[str, str] = field(default_factory=dict)
+    sided: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    outer: Scope | None = None
+
+    def below(self, name: str) -> str:
+        """The address of something inside this scope."""
+        return f"{self.address}.{name}" if self.address else name
+
+    @property
+    def references(self) -> list[str]:
+        """The composites that this scope lies in, outermost first."""
+        outer = self.outer.references if self.outer else []
+        return [*outer, self.reference] if self.reference else outer
+
+
+@dataclass(frozen=True)
+class Where:
+    """The place of one entry: its address, as written once for all sides, and its surroundings."""
+
+    address: str
+    logical: str
+    scope: Scope
+    mark: Mark
+    side: str = ""
+    measure: bool = False
+
+
+def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:
+    """The address that a text such as `shank.distal` means there; None after a fault."""
+    text = _with_side(text, where.side)
+    if text == WORLD:
+        return WORLD
+    if text.startswith("="):
+        found = where.scope.attachments.get(text[1:])
+        if found is None:
+            hint = did_you_mean(text[1:], where.scope.attachments)
+            faults.add(f"{text} is no attachment of this mask. {hint}", mark, where.address)
+        return found
+    first, _, rest = text.partition(".")
+    known: list[str] = []
+    here: Scope | None = where.scope
+    while here is not None:
+        if first in here.sided:
+            both = " and ".join(here.sided[first])
+            faults.add(f"{first} stands for {both}; name one of them.", mark, where.address)
+            return None
+        if first in here.children:
+            base = here.children[first]
+            return f"{base}.{rest}" if rest else base
+        known += here.children
+        # A composite's own text sees its siblings only; an override sees what its writer sees.
+        here = here.outer if mark.file != here.file else None
+    faults.add(f"there is no part {first} here. {did_you_mean(first, known)}", mark, where.address)
+    return None
+
+
+def _with_side(text: str, side: str) -> str:
+    """`leg_{other}.load` for one side."""
+    return text.replace("{other}", _OTHER[side]).replace("{side}", side) if side else text

@@ -1,0 +1,205 @@
+"""Units at the border, SI inside: text such as "30 deg" becomes a number and a dimension."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cache
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from pint import UnitRegistry
+
+_BASES = ("length", "mass", "time", "angle", "temperature", "current", "any")
+
+# The field's units and no others: a short list that errors can print. SI brochure, 9th edition.
+_DEFINITIONS = """
+mega- = 1e6 = M-
+kilo- = 1e3 = k-
+centi- = 1e-2 = c-
+milli- = 1e-3 = m-
+micro- = 1e-6 = u-
+meter = [length] = m
+gram = [mass] = g
+second = [time] = s
+radian = [angle] = rad
+kelvin = [temperature] = K
+ampere = [current] = A
+minute = 60 * second = min
+hour = 3600 * second = h
+degree = 3.141592653589793 / 180 * radian = deg
+percent = 0.01 = %
+hertz = 1 / second = Hz
+newton = kilogram * meter / second ** 2 = N
+joule = newton * meter = J
+watt = joule / second = W
+pascal = newton / meter ** 2 = Pa
+"""
+_NAMES = "m cm mm km g kg s ms min h rad deg N kN J kJ W kW Pa kPa MPa Hz K A %".split()
+
+_SAID = {
+    "": "a plain number",
+    "any": "any quantity",
+    "length": "a length",
+    "mass": "a mass",
+    "time": "a time",
+    "angle": "an angle",
+    "1/time": "a rate",
+    "angle/time": "an angular velocity",
+    "length/time": "a velocity",
+    "length/time^2": "an acceleration",
+    "length mass/time^2": "a force",
+    "length^2 mass/time^2": "a moment or an energy",
+    "length^2 mass/time^3": "a power",
+    "length^2 mass": "a moment of inertia",
+    "mass/time^2": "a stiffness",
+    "mass/time": "a damping",
+    "mass/length time^2": "a pressure",
+    "length^2": "an area",
+}
+
+
+class UnknownUnit(ValueError):
+    """A text that is not a unit of the list."""
+
+
+@dataclass(frozen=True)
+class Dimension:
+    """Exponents over length, mass, time, angle, temperature, current, and any: a unit left open."""
+
+    exponents: tuple[Fraction, ...] = (Fraction(0),) * len(_BASES)
+
+    def __mul__(self, other: Dimension) -> Dimension:
+        return Dimension(tuple(a + b for a, b in zip(self.exponents, other.exponents, strict=True)))
+
+    def __truediv__(self, other: Dimension) -> Dimension:
+        return self * other**-1
+
+    def __pow__(self, power: float | Fraction) -> Dimension:
+        exact = Fraction(power).limit_denominator(1000)
+        return Dimension(tuple(a * exact for a in self.exponents))
+
+    @property
+    def without_angle(self) -> Dimension:
+        """As the audit sees it: rad = 1, or r*theta would be no length."""
+        angle = _BASES.index("angle")
+        return Dimension(tuple(Fraction(0) if i == angle else e for i, e in enumerate(self.exponents)))
+
+    @property
+    def plain(self) -> bool:
+        return not any(self.exponents)
+
+    @property
+    def formula(self) -> str:
+        """Base quantities with powers, such as length mass/time^2."""
+        signed = list(zip(_BASES, self.exponents, strict=True))
+        over = " ".join(_power(base, e) for base, e in signed if e > 0)
+        under = " ".join(_power(base, -e) for base, e in signed if e < 0)
+        return f"{over or '1'}/{under}" if under else over
+
+    def __str__(self) -> str:
+        """In words, with the article: a force; else its formula."""
+        return _SAID.get(self.formula, f"a quantity of {self.formula}")
+
+    @property
+    def si(self) -> str:
+        """The SI unit of this dimension, in base units."""
+        names = dict(zip(_BASES, ("m", "kg", "s", "rad", "K", "A", "*"), strict=True))
+        text = self.formula
+        for base, name in names.items():
+            text = re.sub(rf"\b{base}\b", name, text)
+        return text or "1"
+
+
+ANY = Dimension(tuple(Fraction(base == "any") for base in _BASES))
+
+
+def _power(base: str, exponent: Fraction) -> str:
+    return base if exponent == 1 else f"{base}^{exponent}"
+
+
+@dataclass(frozen=True)
+class Unit:
+    """A unit: its text, the SI value of one of it, and its dimension."""
+
+    text: str
+    factor: float
+    dimension: Dimension
+
+    @property
+    def article(self) -> str:
+        return str(self.dimension)
+
+
+@cache
+def _registry() -> UnitRegistry[Any]:
+    from pint import UnitRegistry
+
+    return UnitRegistry(_DEFINITIONS.strip().splitlines(), cache_folder=None)
+
+
+@cache
+def parse_unit(text: str) -> Unit:
+    """The unit that a text names: N, kg m^2, m/s^2, deg/s, %, 1; `*` leaves it open.
+
+    Errors: UnknownUnit.
+    """
+    if text in ("", "1"):
+        return Unit("1", 1.0, Dimension())
+    if text == "*":
+        return Unit("*", 1.0, ANY)
+    if not re.fullmatch(r"[A-Za-z%0-9*/^ ()-]+", text):
+        raise UnknownUnit(text)
+    try:
+        quantity = _registry().Quantity(1, text.replace("%", " percent ")).to_base_units()
+    except Exception as error:  # pint raises its own, tokenizer and arithmetic errors alike
+        raise UnknownUnit(text) from error
+    powers = {name.strip("[]"): Fraction(str(power)).limit_denominator(1000) for name, power in quantity.dimensionality.items()}
+    dimension = Dimension(tuple(powers.get(base, Fraction(0)) for base in _BASES))
+    # pint's base of mass is the gram; SI's is the kilogram.
+    factor = float(quantity.magnitude) * 1e-3 ** float(powers.get("mass", 0))
+    return Unit(text, _shortest(factor), dimension)
+
+
+def _shortest(factor: float) -> float:
+    """Powers of ten without the last bit's noise: 1e-3 * 1000.0 is 1."""
+    short = float(f"{factor:.12g}")
+    return short if abs(short - factor) <= 4 * math.ulp(factor) else factor
+
+
+_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """A number in SI and the unit it was written in."""
+
+    value: float
+    unit: Unit
+
+
+def parse_quantity(text: str | float) -> Quantity | None:
+    """The quantity a text names, such as "30 deg"; None if it does not begin with a number.
+
+    Errors: UnknownUnit with the unit's text.
+    """
+    if isinstance(text, int | float):
+        return Quantity(float(text), parse_unit("1"))
+    match = _NUMBER.match(text)
+    if match is None:
+        return None
+    unit = parse_unit(match[2])
+    return Quantity(scaled(float(match[1]), unit.factor), unit)
+
+
+def scaled(number: float, factor: float) -> float:
+    """number * factor, dividing where that is exact: "15 ms" is 0.015, not 0.015000000000000001."""
+    inverse = 1 / factor
+    return number / inverse if factor < 1 and inverse == round(inverse) else number * factor
+
+
+def known_units() -> tuple[str, ...]:
+    """The units that errors suggest."""
+    return tuple(_NAMES)

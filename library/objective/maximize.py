@@ -1,0 +1,13 @@
+from gaitsim.component import Component, Input, Output, Parameter
+
+
+class Maximize(Component):
+    """Minus a metric, so that the largest is the best."""
+
+    scale = Parameter("*", "What one unit of cost is worth.", default=1, source="definition: SI")
+    value = Input("*", "The metric.")
+    cost = Output("1", "Minus the metric.")
+
+    @staticmethod
+    def output(p, u, x, y):
+        y.cost = -u.value / p.scale
