@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from gaitsim.errors import Mark, SimulationFailed
 from gaitsim.parts.primitive import Primitive
@@ -136,11 +136,10 @@ class Model:
             values.append(_value(number, values, chosen))
         return values
 
-    def with_step(self, step: float) -> Model:
-        return replace(self, simulate=replace(self.simulate, step=step))
-
-    def part(self, address: str) -> Part:
-        return next(part for part in self.parts if part.address == address)
+    @property
+    def metrics(self) -> dict[str, str]:
+        """Every metric and its unit."""
+        return metric_units(self.parts, self.connections)
 
 
 def _value(number: Number, before: list[float], chosen: Sequence[float]) -> float:
@@ -160,8 +159,22 @@ def metric_names(part: Part) -> dict[str, str]:
     return {name: part.address if name == "value" else f"{part.address}.{name}" for name in part.type.metrics}
 
 
-def metric_units(parts: Sequence[Part]) -> dict[str, str]:
-    """Every metric of these parts and its unit."""
-    return {
-        name: part.type.metrics[own].unit for part in parts for own, name in metric_names(part).items()
+def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> dict[str, str]:
+    """Every metric and its unit; one left open is that of the signal that is measured."""
+    units = {f"{p.address}.{n}": o.unit for p in parts for n, o in p.type.outputs.items()}
+    measured = {
+        c.target.rpartition(".")[0]: units[c.source]
+        for c in reversed(connections)
+        if _input_unit(c.target, parts) == "*"
     }
+    found = {}
+    for part in parts:
+        for own, name in metric_names(part).items():
+            unit = part.type.metrics[own].unit
+            found[name] = measured.get(part.address, unit) if unit == "*" else unit
+    return found
+
+
+def _input_unit(port: str, parts: Sequence[Part]) -> str:
+    owner, _, name = port.rpartition(".")
+    return next(p.type.inputs[name].unit for p in parts if p.address == owner)

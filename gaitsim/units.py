@@ -37,7 +37,9 @@ joule = newton * meter = J
 watt = joule / second = W
 pascal = newton / meter ** 2 = Pa
 """
-_NAMES = "m cm mm km g kg s ms min h rad deg N kN J kJ W kW Pa kPa MPa Hz K A %".split()
+_NAMES = ("m", "cm", "mm", "kg", "g", "s", "ms", "min", "h", "rad", "deg", "N", "kN", "J", "kJ", "W", "kW") + (
+    "Pa", "kPa", "MPa", "Hz", "K", "A", "%",
+)
 
 _SAID = {
     "": "a plain number",
@@ -56,7 +58,7 @@ _SAID = {
     "length^2 mass": "a moment of inertia",
     "mass/time^2": "a stiffness",
     "mass/time": "a damping",
-    "mass/length time^2": "a pressure",
+    "mass/(length time^2)": "a pressure",
     "length^2": "an area",
 }
 
@@ -96,7 +98,8 @@ class Dimension:
         """Base quantities with powers, such as length mass/time^2."""
         signed = list(zip(_BASES, self.exponents, strict=True))
         over = " ".join(_power(base, e) for base, e in signed if e > 0)
-        under = " ".join(_power(base, -e) for base, e in signed if e < 0)
+        below = [_power(base, -e) for base, e in signed if e < 0]
+        under = f"({' '.join(below)})" if len(below) > 1 else "".join(below)
         return f"{over or '1'}/{under}" if under else over
 
     def __str__(self) -> str:
@@ -156,7 +159,10 @@ def parse_unit(text: str) -> Unit:
         quantity = _registry().Quantity(1, text.replace("%", " percent ")).to_base_units()
     except Exception as error:  # pint raises its own, tokenizer and arithmetic errors alike
         raise UnknownUnit(text) from error
-    powers = {name.strip("[]"): Fraction(str(power)).limit_denominator(1000) for name, power in quantity.dimensionality.items()}
+    powers = {
+        name.strip("[]"): Fraction(str(power)).limit_denominator(1000)
+        for name, power in quantity.dimensionality.items()
+    }
     dimension = Dimension(tuple(powers.get(base, Fraction(0)) for base in _BASES))
     # pint's base of mass is the gram; SI's is the kilogram.
     factor = float(quantity.magnitude) * 1e-3 ** float(powers.get("mass", 0))
@@ -202,4 +208,4 @@ def scaled(number: float, factor: float) -> float:
 
 def known_units() -> tuple[str, ...]:
     """The units that errors suggest."""
-    return tuple(_NAMES)
+    return _NAMES

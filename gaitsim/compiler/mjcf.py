@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import mujoco
 
-from gaitsim.compiler.mechanics import Element, Mechanics, Tie, numbers_of, world_frames
+from gaitsim.compiler.mechanics import Mechanics, Point, Tie, numbers_of, world_frames
 from gaitsim.errors import Fault, Faults, InvalidSpec
 from gaitsim.model import WORLD, Model, Part
 from gaitsim.parts.load import function_of
@@ -61,7 +61,7 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
     for segment, joint in order:
         parent = frames.point(joint.attachments["parent"])
         body = parent.body.add_body(name=segment.address, info=str(segment.mark))
-        frames.places[segment.address] = frames.point(WORLD).__class__(body, (0.0, 0.0, 0.0))
+        frames.places[segment.address] = Point(body, (0.0, 0.0, 0.0))
         build(segment, body)
         child = frames.point(joint.attachments["child"])
         body.pos = [a - b for a, b in zip(parent.position, child.position, strict=True)]
@@ -116,16 +116,14 @@ def tie_place(model: Any, tie: Tie) -> int:
     """Where in its array of MuJoCo's data a tied number lies."""
     if tie.element is None:
         return tie.index
-    start = {
-        ("joint", "qpos"): lambda e: model.joint(e.name).qposadr[0],
-        ("joint", "qvel"): lambda e: model.joint(e.name).dofadr[0],
-        ("joint", "qfrc_applied"): lambda e: model.joint(e.name).dofadr[0],
-        ("tendon", "ten_length"): lambda e: model.tendon(e.name).id,
-        ("tendon", "ten_velocity"): lambda e: model.tendon(e.name).id,
-        ("actuator", "ctrl"): lambda e: model.actuator(e.name).id,
-        ("sensor", "sensordata"): lambda e: model.sensor(e.name).adr[0],
-    }[tie.element.kind, tie.field]
-    return int(start(tie.element)) + tie.index
+    element = getattr(model, tie.element.kind)(tie.element.name)
+    first: dict[str, Callable[[], Any]] = {
+        "qpos": lambda: element.qposadr[0],
+        "qvel": lambda: element.dofadr[0],
+        "qfrc_applied": lambda: element.dofadr[0],
+        "sensordata": lambda: element.adr[0],
+    }
+    return int(first.get(tie.field, lambda: element.id)()) + tie.index
 
 
 def _owner(frame: str) -> str:
@@ -138,6 +136,3 @@ def _compiled(spec: Any) -> Any:
     except ValueError as error:
         text = " ".join(str(error).split())
         raise InvalidSpec(f"MuJoCo refuses the mechanics: {text}") from error
-
-
-__all__ = ["Assembly", "Element", "assemble", "body_order", "tie_place"]

@@ -25,7 +25,7 @@ def ieee_math() -> SimpleNamespace:
 
 
 def _out_of_range(name: str) -> Callable[..., float]:
-    grows = {
+    grows: dict[str, Callable[..., float]] = {
         "exp": lambda x: math.inf,
         "exp2": lambda x: math.inf,
         "expm1": lambda x: math.inf,

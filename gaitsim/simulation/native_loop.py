@@ -57,7 +57,7 @@ class Tables(NamedTuple):
     initial_value: Floats
 
 
-@intrinsic
+@intrinsic  # type: ignore[untyped-decorator]
 def _call(
     typing: Any, kernel: Any, stage: Any, p: Any, u: Any, x: Any, y: Any, dt: Any
 ) -> Any:
@@ -73,7 +73,7 @@ def _call(
     return signature, generate
 
 
-@intrinsic
+@intrinsic  # type: ignore[untyped-decorator]
 def _load(typing: Any, address: Any) -> Any:
     """The double at an address."""
 
@@ -83,7 +83,7 @@ def _load(typing: Any, address: Any) -> Any:
     return types.float64(types.intp), generate
 
 
-@intrinsic
+@intrinsic  # type: ignore[untyped-decorator]
 def _store(typing: Any, address: Any, value: Any) -> Any:
     """Write a double to an address."""
 
@@ -126,7 +126,7 @@ def _finite(table: Floats, begin: int, end: int) -> bool:
 def _run_stage(
     stage: int, part: int, t: Tables, p: Floats, u: Floats, x: Floats, y: Floats, dt: float
 ) -> int:
-    return _call(
+    code: int = _call(
         t.kernels[part],
         stage,
         p.ctypes.data + 8 * t.p_at[part],
@@ -135,6 +135,7 @@ def _run_stage(
         y.ctypes.data + 8 * t.y_at[part],
         dt,
     )
+    return code
 
 
 @njit(cache=True)  # type: ignore[untyped-decorator]

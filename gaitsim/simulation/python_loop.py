@@ -36,6 +36,13 @@ class Normal:
     def __post_init__(self) -> None:
         self.body = Body(self.program)
 
+    def prepare(self) -> None:
+        """Check what only the posed model can tell.
+
+        Errors: InvalidSpec.
+        """
+        self.body.check_initial()
+
     def run(self, values: Sequence[float], steps: int, recorded: bool) -> Ending:
         """Simulate one candidate's numbers."""
         self.body.pose(values)
@@ -65,7 +72,8 @@ class _Run:
 
     def run(self, steps: int, recorded: bool) -> Ending:
         record: list[Floats] = []
-        done, stopped_by, failure = 0, None, None
+        done, failure = 0, None
+        stopped_by: int | None = None
         try:
             self._start()
             while done < steps:
@@ -90,9 +98,9 @@ class _Run:
                 done += 1
         except _Failed as error:
             failure = str(error)
-        part = None if stopped_by is None else self.program.part_of_output(stopped_by)
+        stopper = None if stopped_by is None else self.program.part_of_output(stopped_by)
         rows = np.array(record).reshape(-1, self.y.size) if recorded else None
-        return Ending(done, part, failure, self.p, self.x, rows)
+        return Ending(done, stopper, failure, self.p, self.x, rows)
 
     def _start(self) -> None:
         """Start all parts in two rounds: one so that there is something to read, one with all inputs known."""

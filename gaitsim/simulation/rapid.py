@@ -14,8 +14,8 @@ from gaitsim.compiler.mjcf import tie_place
 from gaitsim.compiler.program import Floats, Integers, Layout, Program
 from gaitsim.simulation import native_loop as native
 from gaitsim.simulation.body import Body
-from gaitsim.simulation.failure import of_component
 from gaitsim.simulation.ending import Ending
+from gaitsim.simulation.failure import of_component
 
 _STAGES = {native.START: "start", native.OUTPUT: "output", native.UPDATE: "update"}
 
@@ -24,7 +24,7 @@ def _begins(layout: Layout) -> Integers:
     return np.append(layout.offsets, layout.size).astype(np.int64)
 
 
-def _integers(rows: Sequence[Any], width: int = 0) -> Integers:
+def _integers(rows: Any, width: int = 0) -> Integers:
     table = np.array(rows, dtype=np.int64)
     return table.reshape(-1, width) if width else table
 
@@ -98,6 +98,14 @@ class Rapid:
             writes.append((address(tie), of_outputs, table.place(i, tie.port)))
             signs.append(tie.sign)
         return _integers(reads, 2), _integers(writes, 3), np.array(signs, dtype=np.float64)
+
+    def prepare(self) -> None:
+        """Compile or load all native code, and check what only the posed model can tell.
+
+        Errors: InvalidComponent, InvalidSpec.
+        """
+        self.body.check_initial()
+        self.run(self.program.model.values(), 0, recorded=False)
 
     def run(self, values: Sequence[float], steps: int, recorded: bool) -> Ending:
         """Simulate one candidate's numbers."""

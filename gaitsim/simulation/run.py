@@ -34,7 +34,7 @@ class Simulator:
     def __post_init__(self) -> None:
         self.program = Program(self.model)
         self._loop = self._prepared()
-        self._loop.body.check_initial()
+        self._loop.prepare()
 
     def _prepared(self) -> Any:
         if self.mode == "normal":
@@ -61,13 +61,15 @@ class Simulator:
             wall = time.perf_counter() - began
             return Outcome("failed", str(error), 0, simulate.step, {}, None, wall)
         metrics = {} if ending.failure else self._metrics(ending)
-        score, reason = (None, ending.failure) if ending.failure else self._score(metrics, values)
-        status = "failed" if reason else "stopped" if ending.stopped_by is not None else "completed"
-        if ending.stopped_by is not None:
-            reason = self.model.parts[ending.stopped_by].address
+        score = None if ending.failure else self._score(metrics, values)
+        status, reason = "completed", ""
+        if ending.failure:
+            status, reason = "failed", ending.failure
+        elif ending.stopped_by is not None:
+            status, reason = "stopped", self.model.parts[ending.stopped_by].address
         trajectory = self._trajectory(ending.record) if ending.record is not None else None
         wall = time.perf_counter() - began
-        return Outcome(status, reason or "", ending.steps, simulate.step, metrics, score, wall, trajectory)
+        return Outcome(status, reason, ending.steps, simulate.step, metrics, score, wall, trajectory)
 
     def _metrics(self, ending: Ending) -> dict[str, float]:
         found: dict[str, float] = {}
@@ -79,11 +81,11 @@ class Simulator:
             found |= {name: float(getattr(m, own)) for own, name in metric_names(part).items()}
         return found
 
-    def _score(self, metrics: dict[str, float], values: Sequence[float]) -> tuple[float | None, str | None]:
-        """The cost, or why there is none."""
+    def _score(self, metrics: dict[str, float], values: Sequence[float]) -> float | None:
+        """The cost; None without an objective, or if it is not finite because a metric is not."""
         objective = self.model.objective
         if objective is None:
-            return None, None
+            return None
         part = objective.part
         wired = {name: metrics[metric] for name, metric in objective.metrics.items()}
         constants = {name: values[index] for name, index in part.constants.items()}
@@ -93,13 +95,10 @@ class Simulator:
         y = SimpleNamespace(cost=math.nan)
         function_of(part.type.cls, "output")(SimpleNamespace(**numbers), SimpleNamespace(**inputs), None, y)
         cost = float(y.cost)
-        if math.isfinite(cost):
-            return cost, None
-        missing = ", ".join(f"{metric} = {metrics[metric]:g}" for metric in objective.metrics.values())
-        return None, f"the objective ({part.type.reference}) gives no finite cost from {missing}"
+        return cost if math.isfinite(cost) else None
 
     def _trajectory(self, record: Floats) -> Trajectory:
         program = self.program
         units = [o.unit for part in self.model.parts for o in part.type.outputs.values()]
         times = np.arange(len(record)) * self.model.simulate.step
-        return Trajectory(times, program.signals, tuple(units), record[:, program.signal_places])
+        return Trajectory(times.astype(np.float64), program.signals, tuple(units), record[:, program.signal_places])

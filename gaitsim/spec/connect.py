@@ -38,7 +38,8 @@ class Wiring:
 
     def completed(self, part: Part) -> Part:
         """The part with its constants, and its attachments and points followed to primitives."""
-        constants = {name: self._constants[port] for name in part.type.inputs if (port := f"{part.address}.{name}") in self._constants}
+        ports = {name: f"{part.address}.{name}" for name in part.type.inputs}
+        constants = {name: self._constants[port] for name, port in ports.items() if port in self._constants}
         attachments = {
             name: self._frame(text, part.mark, f"{part.address}.{name}") for name, text in part.attachments.items()
         }
@@ -56,6 +57,8 @@ class Wiring:
         declared = part and (part.type.outputs.get(name) or part.type.states.get(name))
         if declared:
             return address, declared.unit
+        if self._broken(text):
+            return None
         known = [*self.expansion.outputs, *(f"{a}.{s}" for a, p in self.parts.items() for s in p.type.states)]
         self.faults.add(f"{text} is no coordinate and no state. {did_you_mean(text, known)}", mark, "initial")
         return None
@@ -68,18 +71,25 @@ class Wiring:
             seen.add(name)
         return name
 
+    def _broken(self, name: str) -> bool:
+        """Whether a name lies in a part that could not be loaded; that has been said already."""
+        return any(name == part or name.startswith(f"{part}.") for part in self.expansion.broken)
+
     def _output(self, wire: Wire) -> str | None:
         name = self._follow(wire.source, self.expansion.outputs)
         owner, _, port = name.rpartition(".")
         if owner in self.parts and port in self.parts[owner].type.outputs:
             return name
-        hint = did_you_mean(wire.source, self.expansion.outputs)
-        self.faults.add(f"there is no output {wire.source}. {hint}", wire.mark, wire.target)
+        if not self._broken(wire.source):
+            hint = did_you_mean(wire.source, self.expansion.outputs)
+            self.faults.add(f"there is no output {wire.source}. {hint}", wire.mark, wire.target)
         return None
 
     def _inputs(self, name: str, mark: Mark, address: str) -> list[str]:
         """The inputs of primitives that a name stands for."""
         targets = self.expansion.inputs.get(name)
+        if targets is None and self._broken(name):
+            return []
         if targets is None:
             hint = did_you_mean(name, self.expansion.inputs)
             self.faults.add(f"there is no input {name}. {hint}", mark, address)
@@ -148,7 +158,7 @@ class Wiring:
 
     def _frame(self, text: str, mark: Mark, address: str) -> str:
         name = self._follow(text, self.expansion.frames)
-        if name == WORLD or name in self.expansion.frames:
+        if name == WORLD or name in self.expansion.frames or self._broken(name):
             return name
         hint = did_you_mean(text, self.expansion.frames)
         self.faults.add(f"there is no frame {text}. {hint}", mark, address)

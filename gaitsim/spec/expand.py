@@ -37,6 +37,7 @@ class Expansion:
     inputs: dict[str, list[str]] = field(default_factory=dict)
     frames: dict[str, str] = field(default_factory=dict)
     notices: list[str] = field(default_factory=list)
+    broken: set[str] = field(default_factory=set)
 
     def __post_init__(self) -> None:
         self.ports = PortReader(self.table, self.faults)
@@ -85,6 +86,7 @@ class Expansion:
     def _entry(self, node: Mapping, where: Where) -> None:
         found, swapped = self._component(node, where)
         if found is None:
+            self.broken.add(where.address)
             return
         node = self._known_words(node, found, where, swapped)
         if isinstance(found, Composite):

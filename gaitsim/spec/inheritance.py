@@ -82,7 +82,15 @@ def override(spec: Mapping, address: str, text: str, origin: str = "--set") -> M
     words = _sectioned(spec, _words(address, mark.file))
     if len(words) > document.DEPTH_LIMIT:
         raise Usage(f"{mark}: this address has {len(words)} words; name a part of the spec.")
-    value = document.parse_value(text, mark.file)
+    return _laid(spec, words, document.parse_value(text, mark.file), mark)
+
+
+def laid(spec: Mapping, address: str, value: Node, mark: Mark) -> Mapping:
+    """The spec with a node laid over what stands at an address, as a row of a study does it."""
+    return _laid(spec, _sectioned(spec, _words(address, str(mark))), value, mark)
+
+
+def _laid(spec: Mapping, words: tuple[str, ...], value: Node, mark: Mark) -> Mapping:
     faults = Faults()
     result = _with(spec, words, (), value, mark, faults)
     faults.raise_if_any()

@@ -132,7 +132,8 @@ class PortReader:
             for item in node.items:
                 self._send(output, item, where)
             return
-        source, delay, target = f"{where.address}.{output}", None, node
+        source, delay = f"{where.address}.{output}", None
+        target: Node = node
         if isinstance(node, Mapping):
             for word, mark in node.keys.items():
                 if word not in ("port", "delay"):

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from gaitsim.component import Parameter
 from gaitsim.errors import Faults, did_you_mean
-from gaitsim.model import WORLD, Model, Objective, Part, Simulate, metric_units
+from gaitsim.model import WORLD, Model, Objective, Simulate, metric_units
 from gaitsim.parts.composite import declared_parameters
 from gaitsim.parts.find import Library
 from gaitsim.spec.connect import Wiring
@@ -53,7 +53,7 @@ def resolve(document: Mapping, library: Library, name: str) -> Model:
     connections = wiring.connections()
     parts = tuple(wiring.completed(part) for part in expansion.parts)
     initial = _initial(_section(document, "initial"), wiring, scope)
-    objective = _objective(document, expansion, parts, scope)
+    objective = _objective(document, expansion, metric_units(parts, connections), scope)
     faults.raise_if_any()
     return Model(
         name=name,
@@ -119,7 +119,9 @@ def _initial(section: Mapping, wiring: Wiring, scope: Scope) -> dict[str, int]:
     return found
 
 
-def _objective(document: Mapping, expansion: Expansion, parts: tuple[Part, ...], scope: Scope) -> Objective | None:
+def _objective(
+    document: Mapping, expansion: Expansion, units: dict[str, str], scope: Scope
+) -> Objective | None:
     """The objective, an expansion of its own whose inputs read metrics."""
     section = _section(document, "objective")
     if not section.entries:
@@ -134,7 +136,6 @@ def _objective(document: Mapping, expansion: Expansion, parts: tuple[Part, ...],
             faults.add("an objective is one primitive component.", section.mark, "objective")
         return None
     (part,) = alone.parts
-    units = metric_units(parts)
     metrics = {}
     for wire in alone.wires:
         if wire.source not in units:

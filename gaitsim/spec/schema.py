@@ -13,8 +13,8 @@ from gaitsim.spec.quantity import example, mismatch, needed
 from gaitsim.units import UnknownUnit, known_units, parse_quantity, parse_unit
 
 
-def _quantity(unit: str, above: float | None = None) -> Any:
-    """A float in SI, written with its unit."""
+def _quantity(unit: str, above: float | None = None) -> tuple[BeforeValidator, WithJsonSchema]:
+    """What makes a float one in SI, written with its unit."""
 
     def convert(value: object) -> float:
         if isinstance(value, bool) or not isinstance(value, str | int | float):
@@ -34,19 +34,23 @@ def _quantity(unit: str, above: float | None = None) -> Any:
         return quantity.value
 
     schema = {"type": ["string", "number"], "examples": [example(unit)], "description": f"In {unit}."}
-    return Annotated[float, BeforeValidator(convert), WithJsonSchema(schema)]
+    return BeforeValidator(convert), WithJsonSchema(schema)
 
 
 class _Section(BaseModel):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
+_Seconds = Annotated[float, *_quantity("s", above=0)]
+_Acceleration = Annotated[float, *_quantity("m/s^2")]
+
+
 class SimulateSection(_Section):
     """How long, in which steps, under which gravity."""
 
-    duration: _quantity("s", above=0) = Field(description="Simulated time.")
-    step: _quantity("s", above=0) = Field(description="Length of one step.")
-    gravity: _quantity("m/s^2") = Field(
+    duration: _Seconds = Field(description="Simulated time.")
+    step: _Seconds = Field(description="Length of one step.")
+    gravity: _Acceleration = Field(
         default=9.81, description="Gravitational acceleration, downwards. Geyer et al. 2003."
     )
     integrator: Literal["euler", "implicitfast"] = Field(

@@ -6,7 +6,7 @@ class Pid(Component):
 
     proportional = Parameter("N m/rad", "Torque per angle.", bounds=(0, 1e6))
     integral = Parameter(
-        "N m/rad s", "Torque per angle and time.", default=0, bounds=(0, 1e6), source="definition: PD control"
+        "N m/(rad s)", "Torque per angle and time.", default=0, bounds=(0, 1e6), source="definition: PD control"
     )
     derivative = Parameter(
         "N m s/rad", "Torque per angular velocity.", default=0, bounds=(0, 1e6), source="definition: P control"

@@ -76,7 +76,7 @@ class Geyer2003(Component):
     fiber_velocity = Output("m/s", "v_CE, shortening negative.")
     normalized_fiber_velocity = Output("1", "v_CE in v_max.")
     tendon_strain_now = Output("1", "Strain of the tendon, eps.")
-    tendon_energy = Output("N m", "Elastic energy in the tendon, F_max l_rest eps^3 / (3 eps_ref^2).")
+    tendon_energy = Output("J", "Elastic energy in the tendon, F_max l_rest eps^3 / (3 eps_ref^2).")
 
     @staticmethod
     def start(p, u, x):

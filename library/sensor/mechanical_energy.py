@@ -4,9 +4,9 @@ from gaitsim.component import Component, Output
 class MechanicalEnergy(Component):
     """Energy of all bodies: potential (0 at the ground's origin) and kinetic."""
 
-    potential = Output("N m", "Potential energy in gravity and in MuJoCo's springs.")
-    kinetic = Output("N m", "Kinetic energy.")
-    total = Output("N m", "Their sum.")
+    potential = Output("J", "Potential energy in gravity and in MuJoCo's springs.")
+    kinetic = Output("J", "Kinetic energy.")
+    total = Output("J", "Their sum.")
 
     @staticmethod
     def output(p, u, x, y):

@@ -1,0 +1,51 @@
+# Needs Python 3.11 or newer, make and git; everything else goes into .venv.
+
+# The stamp bears the digest of what the environment is made from and where it stands: a changed
+# pyproject.toml or a moved folder means a fresh .venv (mujoco does not survive an upgrade in place).
+READY := .venv/ready-$(shell (pwd; cat pyproject.toml) | cksum | cut -d ' ' -f 1)
+PYTHONS := $(PYTHON) python3.13 python3.12 python3.11 python3
+
+# Nothing of the shell's own Python reaches ours, and compiled components stay in the checkout.
+unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
+export GAITSIM_CACHE := $(CURDIR)/.cache/gaitsim
+
+.PHONY: help setup run test check bench clean
+help:
+	@sed -n 's/^\([a-z]*\):.*## /make \1	/p' Makefile
+
+setup: $(READY) ## make .venv with gaitsim and the tools for its tests
+run: $(READY) ## simulate the hopper of Geyer et al. (2003)
+	.venv/bin/gaitsim run specs/hopping_geyer2003.yaml
+
+check: $(READY) ## ruff and mypy
+	.venv/bin/ruff check .
+	.venv/bin/mypy
+
+# pytest's 5 is "no tests": there need not be slow ones.
+test: check ## check, then the fast tests, then the slow ones
+	.venv/bin/pytest -n 2 -m "not slow"
+	.venv/bin/pytest -n 2 -m slow || test $$? -eq 5
+
+bench: $(READY) ## time a step against a bare mj_step loop in C
+	.venv/bin/python bench/bench.py
+
+clean: ## remove .venv and all caches; results/ stays
+	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache bench/build
+	find gaitsim library tests bench specs -name __pycache__ -prune -exec rm -rf {} +
+
+# The stamp is written last. The interpreter behind an active venv is asked for, as that venv may
+# be the very .venv that is to be replaced.
+$(READY):
+	@for name in $(PYTHONS); do \
+	  python=$$("$$name" -c 'import sys, venv, ensurepip; assert sys.version_info >= (3, 11); print(sys._base_executable)' 2>/dev/null) && break; \
+	done; \
+	if [ -z "$$python" ]; then \
+	  echo "gaitsim needs Python 3.11 or newer with its venv module; none of these is one: $(PYTHONS)." >&2; \
+	  echo "Install one (Debian, Ubuntu: apt install python3 python3-venv), or name it: make PYTHON=/path/to/python3" >&2; \
+	  exit 1; \
+	fi; \
+	echo "Making .venv with $$("$$python" --version), $$python (a minute or so)" >&2; \
+	rm -rf .venv && "$$python" -m venv .venv
+	@mkdir -p .cache && echo '*' > .cache/.gitignore
+	@.venv/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@touch $@

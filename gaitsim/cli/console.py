@@ -1,0 +1,84 @@
+"""The only place that prints: data on stdout, talk on stderr."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+from gaitsim.errors import GaitsimError
+
+
+def say(text: str) -> None:
+    """Talk: on stderr, as it is."""
+    print(text, file=sys.stderr)
+
+
+def give(text: str) -> None:
+    """Data: on stdout, as it is."""
+    print(text)
+
+
+def give_json(data: Any) -> None:
+    """One JSON document on stdout; a number that is not finite is null."""
+    print(json.dumps(_finite(data), indent=2, ensure_ascii=False))
+
+
+def give_table(columns: Sequence[str], rows: Iterable[Sequence[str]], title: str = "") -> None:
+    """A table on stdout; as wide as it must be where stdout is no terminal."""
+    from rich.console import Console
+    from rich.table import Table
+
+    table = Table(title=title or None, title_justify="left", header_style="bold", box=None)
+    for column in columns:
+        table.add_column(column, overflow="fold")
+    for row in rows:
+        table.add_row(*(_plain(cell) for cell in row))
+    wide = None if sys.stdout.isatty() else 10_000
+    Console(width=wide, highlight=False, soft_wrap=not sys.stdout.isatty()).print(table)
+
+
+def say_error(error: GaitsimError) -> None:
+    """Every fault of an error, one after the other."""
+    for fault in error.faults:
+        say(str(fault))
+
+
+def error_data(error: GaitsimError) -> dict[str, Any]:
+    """An error as data, for --json."""
+    return {
+        "status": "invalid" if error.exit_code == 3 else "failed",
+        "errors": [
+            {
+                "file": fault.mark.file if fault.mark else None,
+                "line": (fault.mark.line or None) if fault.mark else None,
+                "column": (fault.mark.column or None) if fault.mark else None,
+                "address": fault.address or None,
+                "message": fault.message,
+            }
+            for fault in error.faults
+        ],
+    }
+
+
+def shown(number: float | None) -> str:
+    """A number for a table."""
+    return "-" if number is None or not math.isfinite(number) else f"{number:.5g}"
+
+
+def _plain(cell: str) -> str:
+    from rich.markup import escape
+
+    return escape(cell)
+
+
+def _finite(data: Any) -> Any:
+    if isinstance(data, dict):
+        return {key: _finite(value) for key, value in data.items()}
+    if isinstance(data, list | tuple):
+        return [_finite(value) for value in data]
+    if isinstance(data, float) and not math.isfinite(data):
+        return None
+    return data

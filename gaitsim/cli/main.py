@@ -1,0 +1,81 @@
+"""The command line: `gaitsim run | check | show | schema | library`."""
+
+from __future__ import annotations
+
+import os
+import sys
+import traceback
+from typing import Annotated
+
+import typer
+
+from gaitsim import __version__
+from gaitsim.cli import check, console, library, run, schema, show
+from gaitsim.errors import ExitCode, GaitsimError
+
+app = typer.Typer(
+    help="Neuromuscular gait models from YAML: check, simulate, show.",
+    no_args_is_help=True,
+    pretty_exceptions_enable=False,
+    rich_markup_mode=None,
+    context_settings={"help_option_names": ["-h", "--help"]},
+)
+app.command("run")(run.run)
+app.command("check")(check.check)
+app.command("show")(show.show)
+app.command("schema")(schema.schema)
+app.add_typer(library.app, name="library")
+
+
+def _version(wanted: bool) -> None:
+    if wanted:
+        console.give(__version__)
+        raise typer.Exit
+
+
+@app.callback()
+def _main(
+    version: Annotated[
+        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
+    ] = False,
+) -> None:
+    pass
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Run one command; the exit code tells the kind of failure."""
+    words = sys.argv[1:] if arguments is None else arguments
+    try:
+        code = app(args=words, prog_name="gaitsim", standalone_mode=False)
+    except GaitsimError as error:
+        console.say_error(error)
+        if "--json" in words:
+            console.give_json(console.error_data(error))
+        code = error.exit_code
+    except KeyboardInterrupt:
+        console.say("interrupted")
+        code = ExitCode.INTERRUPTED
+    except BrokenPipeError:
+        # The reader of our output is gone (such as head); there is no one left to tell.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        code = ExitCode.OK
+    except Exception as error:
+        code = _other(error)
+    sys.exit(code if isinstance(code, int) else ExitCode.OK)
+
+
+def _other(error: Exception) -> int:
+    """What the command-line library refuses; everything else is a bug of ours."""
+    if hasattr(error, "format_message") and hasattr(error, "exit_code"):
+        console.say(f"gaitsim: {error.format_message()}")
+        context = getattr(error, "ctx", None)
+        command = context.command_path if context is not None else "gaitsim"
+        console.say(f"Try '{command} --help'.")
+        return ExitCode.USAGE
+    console.say("".join(traceback.format_exception(error)))
+    console.say("This is a bug of gaitsim; please report it with the lines above.")
+    return ExitCode.BUG
+
+
+if __name__ == "__main__":
+    main()

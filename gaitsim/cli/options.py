@@ -1,0 +1,53 @@
+"""Options and arguments that several commands share, and the model they ask for."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+if TYPE_CHECKING:
+    from gaitsim.model import Model
+    from gaitsim.parts.find import Library
+    from gaitsim.spec.document import Mapping
+
+Spec = Annotated[Path, typer.Argument(metavar="SPEC", help="A spec, such as specs/hopping_geyer2003.yaml.")]
+Set = Annotated[
+    list[str] | None,
+    typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a value of the spec; repeatable."),
+]
+Libraries = Annotated[
+    list[Path] | None,
+    typer.Option("--library", metavar="FOLDER", help="Another folder of components; repeatable."),
+]
+Json = Annotated[bool, typer.Option("--json", help="One JSON document on stdout.")]
+
+
+def open_library(spec: Path | None, folders: list[Path] | None) -> Library:
+    """The components that a spec can use.
+
+    Errors: Usage if a folder is missing.
+    """
+    from gaitsim.errors import Usage
+    from gaitsim.parts.find import Library, library_folders
+
+    for folder in folders or []:
+        if not folder.is_dir():
+            raise Usage(f"--library {folder}: there is no such folder; name one that holds kinds.")
+    return Library(library_folders(spec, folders or []))
+
+
+def read_document(spec: Path, settings: list[str] | None) -> Mapping:
+    """The spec with its settings."""
+    from gaitsim.spec.inheritance import split_setting
+    from gaitsim.spec.resolve import read_spec
+
+    return read_spec(spec, [split_setting(text) for text in settings or []])
+
+
+def read_model(spec: Path, settings: list[str] | None, folders: list[Path] | None) -> Model:
+    """The resolved model of a spec."""
+    from gaitsim.spec.resolve import resolve
+
+    return resolve(read_document(spec, settings), open_library(spec, folders), spec.stem)

@@ -1,0 +1,169 @@
+"""gaitsim run: simulate a spec once, or once for each row of a study."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gaitsim.cli import console
+from gaitsim.cli.options import Json, Libraries, Set, Spec, open_library, read_document
+
+if TYPE_CHECKING:
+    from gaitsim.model import Model
+    from gaitsim.simulation.outcome import Outcome
+    from gaitsim.spec.study import Variant
+
+_FAILED = 4
+
+
+class ModeName(StrEnum):
+    """The two ways of running a model."""
+
+    rapid = "rapid"
+    normal = "normal"
+
+
+def run(
+    spec: Spec,
+    mode: Annotated[ModeName, typer.Option(help="Native code, or plain Python for debugging.")] = ModeName.rapid,
+    settings: Set = None,
+    vary: Annotated[
+        list[str] | None,
+        typer.Option(metavar="ADDRESS=VALUES", help="Values low:high:count or a,b,c; a table; repeatable."),
+    ] = None,
+    out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write every signal to a CSV file.")] = None,
+    no_save: Annotated[bool, typer.Option("--no-save", help="Keep no result folder.")] = False,
+    library: Libraries = None,
+    json: Json = False,
+) -> int:
+    """Simulate a spec and print its metrics.
+
+    Examples:
+
+    gaitsim run specs/hopping_geyer2003.yaml
+
+    gaitsim run specs/hopping_geyer2003.yaml --vary feedback.gain=1:15:8
+
+    gaitsim run specs/hopping_geyer2003.yaml --set simulate.step='1 ms' --out hop.csv
+    """
+    from gaitsim.errors import Usage
+    from gaitsim.simulation.run import Simulator
+    from gaitsim.spec.resolve import resolve
+    from gaitsim.spec.study import variants
+
+    document = read_document(spec, settings)
+    components = open_library(spec, library)
+    rows = variants(document, vary or [])
+    if out is not None and len(rows) > 1:
+        raise Usage("--out writes one trajectory; drop --vary or study:, or --set one value.")
+    models = [resolve(row.document, components, spec.stem) for row in rows]
+    for notice in dict.fromkeys(notice for model in models for notice in model.notices):
+        console.say(notice)
+    if len(rows) == 1 and not rows[0].settings:
+        simulator = Simulator(models[0], mode.value)
+        outcomes = [simulator.run(recorded=out is not None)]
+    else:
+        outcomes = _all(models, mode)
+    folder = None
+    if not no_save:
+        folder = _saved(document, models[0], components, mode, rows, outcomes)
+    if out is not None:
+        from gaitsim.results.store import save_trajectory
+
+        save_trajectory(out, outcomes[0])
+    _report(rows, outcomes, models, mode, folder, json)
+    for outcome in outcomes:
+        if outcome.status == "failed":
+            console.say(f"failed: {outcome.reason}")
+    return _FAILED if all(outcome.status == "failed" for outcome in outcomes) else 0
+
+
+def _all(models: Sequence[Model], mode: ModeName) -> list[Outcome]:
+    from gaitsim.simulation.batch import run_all
+
+    return list(run_all(models, mode.value))
+
+
+def _saved(
+    document: Any, model: Model, components: Any, mode: ModeName, rows: Sequence[Variant], outcomes: Sequence[Outcome]
+) -> Path:
+    from gaitsim.compiler.mjcf import assemble
+    from gaitsim.results.store import save_run
+
+    table = [(row.settings, outcome) for row, outcome in zip(rows, outcomes, strict=True)]
+    xml = assemble(model, model.values()).xml
+    return save_run(Path("results"), document, model, components, xml, mode.value, table)
+
+
+def _report(
+    rows: Sequence[Variant],
+    outcomes: Sequence[Outcome],
+    models: Sequence[Model],
+    mode: ModeName,
+    folder: Path | None,
+    json: bool,
+) -> None:
+    single = len(rows) == 1 and not rows[0].settings
+    if json:
+        tail = {"mode": mode.value, "result": str(folder) if folder else None}
+        tables = [_data(outcome) for outcome in outcomes]
+        if single:
+            console.give_json(tables[0] | tail)
+        else:
+            table = [{"settings": row.settings, **data} for row, data in zip(rows, tables, strict=True)]
+            console.give_json({"status": _overall(outcomes), "rows": table, **tail})
+        return
+    if single:
+        _print_one(outcomes[0], models[0])
+    else:
+        _print_table(rows, outcomes)
+    if folder:
+        console.say(f"saved in {folder}")
+
+
+def _overall(outcomes: Sequence[Outcome]) -> str:
+    return "failed" if all(outcome.status == "failed" for outcome in outcomes) else "completed"
+
+
+def _data(outcome: Outcome) -> dict[str, Any]:
+    return {
+        "status": outcome.status,
+        "reason": outcome.reason or None,
+        "score": outcome.score,
+        "metrics": dict(outcome.metrics),
+        "simulated_seconds": outcome.simulated_seconds,
+        "wall_seconds": outcome.wall_seconds,
+        "steps": outcome.steps,
+    }
+
+
+def _print_one(outcome: Outcome, model: Model) -> None:
+    units = model.metrics
+    rows = [(name, console.shown(value), units[name]) for name, value in outcome.metrics.items()]
+    if outcome.score is not None:
+        rows.append(("score (a cost)", console.shown(outcome.score), ""))
+    console.give_table(["metric", "value", "unit"], rows)
+    seconds, wall = outcome.simulated_seconds, outcome.wall_seconds
+    by = f" by {outcome.reason}" if outcome.status == "stopped" else ""
+    console.give(
+        f"{outcome.status}{by}: {seconds:g} s in {outcome.steps} steps, "
+        f"{wall:.3g} s of wall time, {seconds / wall:.3g} x real time"
+    )
+
+
+def _print_table(rows: Sequence[Variant], outcomes: Sequence[Outcome]) -> None:
+    addresses = list(dict.fromkeys(address for row in rows for address in row.settings))
+    names = list(dict.fromkeys(name for outcome in outcomes for name in outcome.metrics))
+    table = [
+        (
+            *(row.settings.get(address, "") for address in addresses),
+            outcome.status,
+            *(console.shown(outcome.metrics.get(name)) for name in names),
+        )
+        for row, outcome in zip(rows, outcomes, strict=True)
+    ]
+    console.give_table([*addresses, "status", *names], table)

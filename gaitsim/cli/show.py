@@ -1,0 +1,82 @@
+"""gaitsim show: what a spec resolves to."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any
+
+import typer
+
+from gaitsim.cli import console
+from gaitsim.cli.options import Json, Libraries, Set, Spec, read_model
+
+
+def show(
+    spec: Spec,
+    tree: Annotated[bool, typer.Option("--tree", help="Parts, with their components (the default).")] = False,
+    parameters: Annotated[bool, typer.Option("--parameters", help="Every number, with unit and source.")] = False,
+    connections: Annotated[bool, typer.Option("--connections", help="Every signal's way.")] = False,
+    mjcf: Annotated[bool, typer.Option("--mjcf", help="The mechanics as MuJoCo XML.")] = False,
+    settings: Set = None,
+    library: Libraries = None,
+    json: Json = False,
+) -> None:
+    """Show what a spec resolves to: tree, parameters, connections, MuJoCo model.
+
+    Example: gaitsim show specs/hopping_geyer2003.yaml --connections
+    """
+    from gaitsim.results.listing import connection_rows, parameter_rows, part_rows
+
+    model = read_model(spec, settings, library)
+    data: dict[str, Any] = {}
+    if tree or not (parameters or connections or mjcf):
+        data["tree"] = part_rows(model)
+    if parameters:
+        data["parameters"] = parameter_rows(model)
+    if connections:
+        data["connections"] = connection_rows(model)
+    if mjcf:
+        from gaitsim.compiler.mjcf import assemble
+
+        data["mjcf"] = assemble(model, model.values()).xml
+    for notice in model.notices:
+        console.say(notice)
+    if json:
+        console.give_json(data)
+        return
+    for section, rows in data.items():
+        _PRINTERS[section](rows)
+
+
+def _tree(rows: list[dict[str, Any]]) -> None:
+    for row in rows:
+        depth = row["address"].count(".")
+        name = row["address"].rpartition(".")[2]
+        fastened = ", ".join(f"{k}: {v}" for k, v in row.get("fastened", {}).items())
+        line = f"{'  ' * depth}{name}"
+        console.give(f"{line:<32} {row['use']}{'  (' + fastened + ')' if fastened else ''}")
+
+
+def _parameters(rows: list[dict[str, Any]]) -> None:
+    table = []
+    for row in rows:
+        low, high = row.get("tune", (None, None))
+        bounds = "" if low is None else f"[{low:g}, {high:g}]"
+        origin = row.get("expression") or row.get("source", "")
+        table.append((row["address"], console.shown(row["value"]), row["unit"], bounds, origin))
+    console.give_table(["parameter", "value", "unit (value in SI)", "tune", "from"], table)
+
+
+def _connections(rows: list[dict[str, Any]]) -> None:
+    table = [
+        (row["from"], row["to"], f"{row['delay'] * 1000:g} ms" if "delay" in row else "", row["by"]) for row in rows
+    ]
+    console.give_table(["from", "to", "delay", "made by"], table)
+
+
+_PRINTERS: dict[str, Callable[[Any], None]] = {
+    "tree": _tree,
+    "parameters": _parameters,
+    "connections": _connections,
+    "mjcf": console.give,
+}

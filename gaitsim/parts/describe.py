@@ -1,0 +1,61 @@
+"""What a component declares, as plain data: for listings, reference pages and schemas."""
+
+from __future__ import annotations
+
+from dataclasses import fields
+from typing import Any
+
+from gaitsim.parts.composite import Composite
+from gaitsim.parts.find import ComponentFile, shown
+from gaitsim.parts.primitive import Primitive
+
+_SECTIONS = (
+    "parameters",
+    "points",
+    "options",
+    "attachments",
+    "frames",
+    "inputs",
+    "outputs",
+    "states",
+    "metrics",
+    "parts",
+)
+
+
+def described(component: ComponentFile) -> dict[str, Any]:
+    """A component's reference, file, digest, docs, and every declaration by section."""
+    head = {
+        "use": component.reference,
+        "kind": component.kind,
+        "file": shown(component.path),
+        "digest": component.digest,
+        "doc": component.doc,
+    }
+    return head | (_composite(component) if isinstance(component, Composite) else _primitive(component))
+
+
+def _primitive(component: Primitive) -> dict[str, Any]:
+    return {
+        section: {name: _declaration(d) for name, d in getattr(component, section).items()}
+        for section in _SECTIONS
+    }
+
+
+def _composite(component: Composite) -> dict[str, Any]:
+    return {
+        "parameters": {name: _declaration(p) for name, p in component.parameters.items()},
+        "attachments": {name: {"doc": doc} for name, doc in component.attachments.items()},
+        "frames": {name: {"is": target} for name, target in component.frames.items()},
+        "inputs": {name: {"is": list(targets)} for name, targets in component.inputs.items()},
+        "outputs": {name: {"is": target} for name, target in component.outputs.items()},
+        "parts": {name: {"use": _use(node)} for name, node in component.parts.entries.items()},
+    }
+
+
+def _use(node: Any) -> str:
+    return str(node.entries["use"].value) if "use" in getattr(node, "entries", {}) else ""
+
+
+def _declaration(declaration: Any) -> dict[str, Any]:
+    return {field.name: getattr(declaration, field.name) for field in fields(declaration)}

@@ -1,0 +1,85 @@
+"""A model as plain data: what `show` prints and what a result keeps as model.yaml."""
+
+from __future__ import annotations
+
+import math
+from typing import Any
+
+from gaitsim.model import Model
+
+
+def model_data(model: Model) -> dict[str, Any]:
+    """Parts, parameters, connections, initial values and metrics, all resolved to SI."""
+    return {
+        "name": model.name,
+        "simulate": {
+            "duration": model.simulate.duration,
+            "step": model.simulate.step,
+            "gravity": model.simulate.gravity,
+            "integrator": model.simulate.integrator,
+        },
+        "parts": part_rows(model),
+        "parameters": parameter_rows(model),
+        "connections": connection_rows(model),
+        "metrics": model.metrics,
+    }
+
+
+def part_rows(model: Model) -> list[dict[str, Any]]:
+    """Every part, composites included, in the order of the spec."""
+    groups: list[dict[str, Any]] = [{"address": g.address, "use": g.reference, "at": str(g.mark)} for g in model.groups]
+    parts: list[dict[str, Any]] = [
+        {"address": p.address, "use": p.type.reference, "at": str(p.mark)}
+        | ({"fastened": dict(p.attachments)} if p.attachments else {})
+        for p in model.parts
+    ]
+    order = {row["address"]: i for i, row in enumerate([*groups, *parts])}
+    rows = sorted([*groups, *parts], key=lambda row: _tree_key(row["address"], order))
+    if model.objective:
+        rows.append({"address": "objective", "use": model.objective.part.type.reference})
+    return rows
+
+
+def _tree_key(address: str, order: dict[str, int]) -> tuple[int, ...]:
+    """Children right below their parent, siblings as written."""
+    words = address.split(".")
+    prefixes = [".".join(words[: i + 1]) for i in range(len(words))]
+    return tuple(order.get(prefix, -1) for prefix in prefixes)
+
+
+def parameter_rows(model: Model) -> list[dict[str, Any]]:
+    """Every number: value, unit, bounds of the search, expression, source, place."""
+    values = model.values()
+    rows = []
+    for number, value in zip(model.numbers, values, strict=True):
+        row: dict[str, Any] = {"address": number.address, "value": value if math.isfinite(value) else None}
+        row["unit"] = number.unit
+        if number.free is not None:
+            free = model.free[number.free]
+            row |= {"tune": [free.low, free.high], "spread": free.spread, "tuned_as": free.address}
+        if number.expression is not None:
+            row["expression"] = number.expression.text
+        if number.source:
+            row["source"] = number.source
+        if number.mark is not None:
+            row["at"] = str(number.mark)
+        rows.append(row)
+    return rows
+
+
+def connection_rows(model: Model) -> list[dict[str, Any]]:
+    """Every connection, also those that parts make with their inner parts."""
+    values = model.values()
+    rows = []
+    for connection in model.connections:
+        row: dict[str, Any] = {"from": connection.source, "to": connection.target}
+        if connection.delay is not None:
+            row["delay"] = values[connection.delay]
+        row["by"] = connection.made_by or str(connection.mark)
+        rows.append(row)
+    if model.objective:
+        rows += [
+            {"from": metric, "to": f"objective.{name}", "by": str(model.objective.part.mark)}
+            for name, metric in model.objective.metrics.items()
+        ]
+    return rows

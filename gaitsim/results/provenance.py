@@ -1,0 +1,47 @@
+"""Where a result comes from: versions, machine, commit, command."""
+
+from __future__ import annotations
+
+import platform
+import subprocess
+import sys
+from datetime import UTC, datetime
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from gaitsim import __version__
+
+_LIBRARIES = ("mujoco", "numba", "numpy", "pydantic", "pint", "pyyaml")
+
+
+def provenance() -> dict[str, Any]:
+    """What a result must remember of its making."""
+    return {
+        "created": datetime.now(UTC).isoformat(timespec="seconds"),
+        "command": sys.argv,
+        "gaitsim": __version__,
+        "versions": {"python": platform.python_version()} | {name: version(name) for name in _LIBRARIES},
+        "machine": {"system": platform.platform(), "cpu": _processor()},
+        "commit": _commit(Path.cwd()),
+    }
+
+
+def _processor() -> str:
+    import llvmlite.binding
+
+    return str(llvmlite.binding.get_host_cpu_name())
+
+
+def _commit(folder: Path) -> dict[str, Any] | None:
+    """The git commit of the working folder and whether it has changes; None outside a checkout."""
+    try:
+        head = _git("rev-parse", "HEAD", folder=folder)
+        return {"hash": head, "dirty": bool(_git("status", "--porcelain", folder=folder))}
+    except (OSError, subprocess.SubprocessError):
+        return None
+
+
+def _git(*words: str, folder: Path) -> str:
+    ran = subprocess.run(["git", *words], cwd=folder, capture_output=True, text=True, check=True, timeout=10)
+    return ran.stdout.strip()

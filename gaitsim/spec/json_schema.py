@@ -1,0 +1,98 @@
+"""The JSON Schema of specs: the fixed sections, and each component by its `use`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from gaitsim.errors import GaitsimError
+from gaitsim.parts.composite import Composite
+from gaitsim.parts.find import ComponentFile, Library
+from gaitsim.spec.quantity import example
+from gaitsim.spec.schema import Header
+
+_CONNECTION = {
+    "type": "object",
+    "properties": {
+        "from": {"type": "string", "description": "An output, such as soleus.force."},
+        "delay": {"$ref": "#/$defs/value", "description": "Delay of the connection, such as 20 ms."},
+        "initial": {"$ref": "#/$defs/value", "description": "The delayed signal before the start."},
+    },
+    "required": ["from"],
+    "additionalProperties": False,
+}
+_QUANTITY = {"type": ["number", "string"]}
+_VALUE = {
+    "anyOf": [
+        _QUANTITY,
+        {
+            "type": "object",
+            "properties": {
+                "value": _QUANTITY,
+                "tune": {"type": "array", "items": _QUANTITY, "minItems": 2, "maxItems": 2},
+                "spread": _QUANTITY,
+                "source": {"type": "string"},
+            },
+            "additionalProperties": False,
+        },
+    ]
+}
+_STRUCTURE = {
+    "sides": {"type": "array", "items": {"enum": ["l", "r"]}, "description": "One part for each side."},
+    "to": {"description": "Where outputs are summed: part.input, a list, or {output: part.input}."},
+}
+
+
+def spec_schema(library: Library) -> dict[str, Any]:
+    """The schema for specs that use this library; components that do not load are left out."""
+    schema = Header.model_json_schema()
+    definitions = schema.setdefault("$defs", {})
+    definitions |= {"value": _VALUE, "connection": _CONNECTION}
+    cases = []
+    for reference in library.references():
+        try:
+            definitions[reference] = _entry(library.find(reference))
+        except GaitsimError:
+            continue
+        same = {"properties": {"use": {"const": reference}}, "required": ["use"]}
+        cases.append({"if": same, "then": {"$ref": f"#/$defs/{reference.replace('/', '~1')}"}})
+    known = sorted(name for name in definitions if "/" in name)
+    entry = {"type": ["object", "null"], "properties": {"use": {"enum": known}}, "allOf": cases}
+    definitions["part"] = entry
+    for section in ("parts", "measures"):
+        schema["properties"][section]["additionalProperties"] = {"$ref": "#/$defs/part"}
+    schema["properties"]["objective"] = {"$ref": "#/$defs/part"}
+    schema["properties"]["initial"]["additionalProperties"] = {"$ref": "#/$defs/value"}
+    return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema, "title": "gaitsim spec"}
+
+
+def _entry(component: ComponentFile) -> dict[str, Any]:
+    """What an entry that uses this component may say."""
+    properties: dict[str, Any] = {"use": {"type": "string"}, **_STRUCTURE}
+    for name, parameter in component.parameters.items():
+        properties[name] = _described("value", parameter.doc, parameter.unit, parameter.source)
+    for name in component.attachments:
+        properties[name] = {"type": "string", "description": "A frame, such as thigh.distal."}
+    if isinstance(component, Composite):
+        properties |= {name: {"description": "An input of the composite."} for name in component.inputs}
+        properties |= {
+            name: {"type": ["object", "null"], "description": "Overrides for this inner part."}
+            for name in component.parts.entries
+        }
+    else:
+        for name, port in component.inputs.items():
+            wired = {"anyOf": [{"$ref": "#/$defs/connection"}, {"$ref": "#/$defs/value"}]}
+            properties[name] = wired | {"description": f"{port.doc} [{port.unit}]"}
+        properties |= {name: {"enum": list(o.choices), "description": o.doc} for name, o in component.options.items()}
+        properties |= {name: {"type": "array", "description": p.doc} for name, p in component.points.items()}
+        properties |= {name: {"$ref": "#/$defs/part", "description": p.doc} for name, p in component.parts.items()}
+    return {
+        "type": "object",
+        "description": component.doc,
+        "properties": properties,
+        "additionalProperties": False,
+    }
+
+
+def _described(reference: str, doc: str, unit: str, source: str) -> dict[str, Any]:
+    text = f"{doc} [{unit}]" + (f" ({source})" if source else "")
+    return {"$ref": f"#/$defs/{reference}", "description": text, "examples": [example(unit)]}

@@ -1,0 +1,91 @@
+"""Studies: a table of overrides, from `--vary address=values` and from `study:` in a spec."""
+
+from __future__ import annotations
+
+import itertools
+import re
+from collections.abc import Sequence as Many
+from dataclasses import dataclass
+
+from gaitsim.errors import Faults, Usage
+from gaitsim.spec.document import Mapping, Node, Sequence, dump, plain
+from gaitsim.spec.inheritance import laid, override, split_setting, without
+from gaitsim.units import UnknownUnit, parse_quantity
+
+_RANGE_LIMIT = 100_000
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One row of a study: what is set, as written, and the spec with it."""
+
+    settings: dict[str, str]
+    document: Mapping
+
+
+def variants(document: Mapping, vary: Many[str]) -> list[Variant]:
+    """Every row of the spec's `study:` combined with every value of each `--vary`.
+
+    Errors: Usage for a `--vary` that is no list of values, InvalidSpec for a bad study.
+    """
+    columns = [_column(text) for text in vary]
+    base = without(document, "study")
+    rows: list[Variant] = []
+    for settings, start in _study(document, base):
+        for values in itertools.product(*([(address, v) for v in options] for address, options in columns)):
+            row = start
+            for address, value in values:
+                row = override(row, address, value, "--vary")
+            rows.append(Variant(settings | dict(values), row))
+    return rows
+
+
+def _study(document: Mapping, base: Mapping) -> list[tuple[dict[str, str], Mapping]]:
+    section = document.entries.get("study")
+    if not isinstance(section, Sequence) or not section.items:
+        return [({}, base)]
+    rows, faults = [], Faults()
+    for item in section.items:
+        if not isinstance(item, Mapping):
+            faults.add("a study is a list of overrides, such as [{feedback.gain: 2}].", item.mark, "study")
+            continue
+        row = base
+        for address, node in item.entries.items():
+            row = laid(row, address, node, item.keys[address])
+        rows.append(({address: _text(node) for address, node in item.entries.items()}, row))
+    faults.raise_if_any()
+    return rows
+
+
+def _text(node: Node) -> str:
+    return dump({"x": plain(node)}).removeprefix("x:").strip()
+
+
+def _column(text: str) -> tuple[str, list[str]]:
+    """An address and its values: `gain=1:15:20` (from, to, how many) or `step=1 ms,0.5 ms`."""
+    address, values = split_setting(text, "--vary")
+    pieces = [piece.strip() for piece in values.split(":")]
+    if len(pieces) == 3:
+        return address, _range(pieces, text)
+    if len(pieces) != 1:
+        raise Usage(f"--vary {text}: a range is low:high:count, such as gain=1:15:20.")
+    # Commas within brackets belong to the value.
+    return address, [piece.strip() for piece in re.split(r",(?![^\[{]*[\]}])", values)]
+
+
+def _range(pieces: list[str], text: str) -> list[str]:
+    try:
+        low, high = parse_quantity(pieces[0]), parse_quantity(pieces[1])
+    except UnknownUnit as error:
+        raise Usage(f"--vary {text}: '{error}' is no known unit.") from error
+    count = int(pieces[2]) if pieces[2].isdigit() else 0
+    if low is None or high is None or not 1 <= count <= _RANGE_LIMIT:
+        raise Usage(f"--vary {text}: a range is low:high:count, such as gain=1:15:20.")
+    if low.unit.text != high.unit.text and low.unit.dimension != high.unit.dimension:
+        raise Usage(f"--vary {text}: both ends need the same unit, such as 1 ms:5 ms:3.")
+    first, last, unit = low.value / low.unit.factor, high.value / low.unit.factor, low.unit.text
+    suffix = "" if unit == "1" else f" {unit}"
+    if count == 1:
+        return [f"{first!r}{suffix}"]
+    step = (last - first) / (count - 1)
+    return [f"{float(f'{first + i * step:.12g}')!r}{suffix}" for i in range(count)]
