@@ -33,8 +33,8 @@ clean: ## remove .venv and all caches; results/ stays
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache bench/build
 	find gaitsim library tests bench specs -name __pycache__ -prune -exec rm -rf {} +
 
-# The stamp is written last. The interpreter behind an active venv is asked for, as that venv may
-# be the very .venv that is to be replaced.
+# The stamp is written last. -qq leaves pip's errors visible. An active venv is asked for the
+# interpreter behind it, as it may be the very .venv that is to be replaced.
 $(READY):
 	@for name in $(PYTHONS); do \
 	  python=$$("$$name" -c 'import sys, venv, ensurepip; assert sys.version_info >= (3, 11); print(sys._base_executable)' 2>/dev/null) && break; \
@@ -47,5 +47,5 @@ $(READY):
 	echo "Making .venv with $$("$$python" --version), $$python (a minute or so)" >&2; \
 	rm -rf .venv && "$$python" -m venv .venv
 	@mkdir -p .cache && echo '*' > .cache/.gitignore
-	@.venv/bin/python -m pip install --quiet --disable-pip-version-check --editable '.[dev]'
+	@.venv/bin/python -m pip install -qq --disable-pip-version-check --editable '.[dev]'
 	@touch $@

@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 import mujoco
+from rich.box import SIMPLE_HEAD
 from rich.console import Console
 from rich.table import Table
 
@@ -110,9 +111,9 @@ def steps_row(path: Path, program: Path | None) -> list[str]:
 
         cost = cost_of(lambda: per_step(rapid, repeats), bare, PAIRS)
         row += [f"{cost.first:,.0f} ns", f"{cost.second:,.0f} ns"]
-        row += [f"{cost.ratio:.2f} ({cost.low:.2f} to {cost.high:.2f})"]
+        row += [f"{cost.ratio:.2f}", f"{cost.low:.2f}-{cost.high:.2f}"]
     else:
-        row += [f"{statistics.median(per_step(rapid, repeats) for _ in range(PAIRS)):,.0f} ns", "", ""]
+        row += [f"{statistics.median(per_step(rapid, repeats) for _ in range(PAIRS)):,.0f} ns", "", "", ""]
     duration = min(first.steps, NORMAL_STEPS) * model.simulate.step
     short = replace(model, simulate=replace(model.simulate, duration=duration))
     normal, beginning = Simulator(short, "normal"), Simulator(short)
@@ -139,17 +140,17 @@ def start_row(path: Path) -> list[str]:
 
 def main() -> None:
     """Print both tables for every spec that has not been tuned from another."""
-    console = Console()
+    console = Console(width=100)
     BUILD.mkdir(exist_ok=True)
     program, reason = bare_loop()
-    steps = Table(title="One step", title_justify="left")
-    columns = ["steps", "rapid", "bare mj_step", "rapid / bare", "normal", "normal / rapid"]
-    starts = Table(title="Before the first step", title_justify="left")
+    steps = Table(title="One step", title_justify="left", box=SIMPLE_HEAD)
+    columns = ["steps", "rapid", "bare loop", "rapid/bare", "range", "normal", "normal/rapid"]
+    starts = Table(title="Before the first step", title_justify="left", box=SIMPLE_HEAD)
     stages = ["import", "resolve, warm", "prepare, warm", "both, warm", "prepare, cold"]
     for table, names in ((steps, columns), (starts, stages)):
-        table.add_column("spec")
+        table.add_column("spec", no_wrap=True)
         for name in names:
-            table.add_column(name, justify="right")
+            table.add_column(name, justify="right", no_wrap=True)
     broken: list[str] = []
     for path in sorted((HERE.parent / "specs").glob("*.yaml")):
         if path.name.endswith(".tuned.yaml"):
@@ -161,7 +162,7 @@ def main() -> None:
             broken.append(f"{path.name} is left out: {error}")
     console.print(steps)
     console.print(
-        f"Medians of {PAIRS} pairs (lowest to highest). A rapid run counts whole: posing, steps, metrics.\n"
+        f"Medians of {PAIRS} alternating pairs. A rapid run counts whole: posing, steps, metrics.\n"
         "The bare loop steps the same MJCF from its reference pose without muscles, control or virtual\n"
         "legs: the hopper falls for ever, and a model with ground contact meets other contacts.\n"
         f"Normal against rapid: the first {NORMAL_STEPS:,} steps, {NORMAL_PAIRS} pairs."

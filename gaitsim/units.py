@@ -37,8 +37,9 @@ joule = newton * meter = J
 watt = joule / second = W
 pascal = newton / meter ** 2 = Pa
 """
-_NAMES = ("m", "cm", "mm", "kg", "g", "s", "ms", "min", "h", "rad", "deg", "N", "kN", "J", "kJ", "W", "kW") + (
-    "Pa", "kPa", "MPa", "Hz", "K", "A", "%",
+_NAMES = (
+    *("m", "cm", "mm", "kg", "g", "s", "ms", "min", "h", "rad", "deg", "N", "kN", "J", "kJ", "W", "kW"),
+    *("Pa", "kPa", "MPa", "Hz", "K", "A", "%"),
 )
 
 _SAID = {

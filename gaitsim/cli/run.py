@@ -157,7 +157,9 @@ def _print_one(outcome: Outcome, model: Model) -> None:
 
 def _print_table(rows: Sequence[Variant], outcomes: Sequence[Outcome]) -> None:
     addresses = list(dict.fromkeys(address for row in rows for address in row.settings))
-    names = list(dict.fromkeys(name for outcome in outcomes for name in outcome.metrics))
+    every = list(dict.fromkeys(name for outcome in outcomes for name in outcome.metrics))
+    # A table has room for the metrics that bear their measure's name; --json has all.
+    names = [name for name in every if name.rpartition(".")[0] not in every]
     table = [
         (
             *(row.settings.get(address, "") for address in addresses),

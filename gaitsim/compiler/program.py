@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaitsim.compiler.graph import Call, schedule
-from gaitsim.errors import Faults
+from gaitsim.errors import Faults, SimulationFailed
 from gaitsim.model import Connection, Model, Part
 
 Floats = NDArray[np.float64]
@@ -45,11 +45,10 @@ def _layout(sizes: Sequence[dict[str, int]]) -> Layout:
 
 @dataclass(frozen=True)
 class DelayLine:
-    """A delayed connection: what it reads, the number that is its delay, how long it can get."""
+    """A delayed connection: what it reads, the number that is its delay, its value before the start."""
 
     source: int
     number: int
-    capacity: int
     initial: int | None
 
 
@@ -106,14 +105,12 @@ class Program:
                 continue
             number = self.model.numbers[connection.delay]
             free = self.model.free[number.free] if number.free is not None else None
-            value = self.model.values()[connection.delay]
-            low, high = (free.low, free.high) if free else (value, value)
+            low = free.low if free else self.model.values()[connection.delay]
             if low < step * (1 - 1e-9):
                 rule = f"{low:g} s is shorter than one step of {step:g} s; write 0 s or a longer delay"
                 faults.add(f"{rule}.", number.mark, number.address)
-            capacity = int(np.ceil(high / step)) + 3
             source = self.outputs.place(*self.port(connection.source))
-            lines.append(DelayLine(source, connection.delay, capacity, connection.initial))
+            lines.append(DelayLine(source, connection.delay, connection.initial))
         faults.raise_if_any()
         return tuple(lines)
 
@@ -173,17 +170,40 @@ class Program:
         return table
 
     def delay_steps(self, values: Sequence[float]) -> Floats:
-        """Each delay line's delay in steps; nearly whole numbers are whole."""
-        steps = np.array([values[line.number] / self.model.simulate.step for line in self.delays])
+        """Each delay line's delay in steps; nearly whole numbers are whole.
+
+        Errors: SimulationFailed for a delay that an expression makes shorter than a step.
+        """
+        step = self.model.simulate.step
+        steps = np.array([values[line.number] / step for line in self.delays])
         whole = np.round(steps)
-        return np.where(np.abs(steps - whole) < 1e-9 * np.maximum(whole, 1), whole, steps)
+        steps = np.where(np.abs(steps - whole) < 1e-9 * np.maximum(whole, 1), whole, steps)
+        for line, delay in zip(self.delays, steps, strict=True):
+            if not delay >= 1:
+                address = self.model.numbers[line.number].address
+                rule = f"{values[line.number]:g} s is shorter than one step of {step:g} s"
+                raise SimulationFailed(f"{address}: {rule}")
+        return steps
+
+    def capacities(self, values: Sequence[float]) -> Integers:
+        """How many past values each delay line keeps: its delay, two to interpolate, one to write."""
+        return np.ceil(self.delay_steps(values)).astype(np.int64) + 3
 
     def _delayed(self, connection: Connection) -> bool:
         """Whether a connection has a delay; a fixed delay of zero is none."""
         if connection.delay is None:
             return False
-        number = self.model.numbers[connection.delay]
-        return number.free is not None or self.model.values()[connection.delay] != 0
+        return self._varying[connection.delay] or self.model.values()[connection.delay] != 0
+
+    @cached_property
+    def _varying(self) -> tuple[bool, ...]:
+        """Which numbers differ between candidates: tuned ones, and what is computed from them."""
+        found: list[bool] = []
+        for number in self.model.numbers:
+            read = [index for _, index in number.expression.names] if number.expression else []
+            read += [number.fraction_of] if number.fraction_of is not None else []
+            found.append(number.free is not None or any(found[index] for index in read))
+        return tuple(found)
 
 
 def _factor(unit: str) -> float:

@@ -8,6 +8,7 @@ from pathlib import Path
 from gaitsim.component import Parameter
 from gaitsim.errors import Faults, did_you_mean
 from gaitsim.parts.load import digest_of
+from gaitsim.parts.primitive import Primitive
 from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, read
 from gaitsim.spec.quantity import number_with_unit
 
@@ -41,6 +42,9 @@ class Composite:
     def words(self) -> list[str]:
         """What an entry of a spec may say to this part."""
         return [*self.parameters, *self.inputs, *self.attachments, *self.parts.entries]
+
+
+ComponentFile = Primitive | Composite
 
 
 def load_composite(reference: str, path: Path, shown: str) -> Composite:

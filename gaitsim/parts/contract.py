@@ -3,14 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from gaitsim.errors import Fault, Mark
-from gaitsim.parts.composite import Composite
+from gaitsim.parts.composite import ComponentFile, Composite
 from gaitsim.spec.document import Mapping, Node, plain, read
-
-if TYPE_CHECKING:
-    from gaitsim.parts.find import ComponentFile
 
 _SECTIONS = ("inputs", "outputs", "parameters", "metrics")
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
-from gaitsim.parts.composite import Composite
-from gaitsim.parts.find import ComponentFile, shown
+from gaitsim.parts.composite import ComponentFile, Composite
+from gaitsim.parts.find import shown
 from gaitsim.parts.primitive import Primitive
 
 _SECTIONS = (

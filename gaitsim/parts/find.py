@@ -7,12 +7,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean
-from gaitsim.parts.composite import Composite, load_composite
+from gaitsim.parts.composite import ComponentFile, load_composite
 from gaitsim.parts.contract import kind_faults
 from gaitsim.parts.load import digest_of, load_primitive
-from gaitsim.parts.primitive import Primitive
 
-ComponentFile = Primitive | Composite
 _LOADERS: dict[str, Callable[[str, Path, str], ComponentFile]] = {
     ".py": load_primitive,
     ".yaml": load_composite,

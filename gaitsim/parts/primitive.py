@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -76,7 +77,7 @@ class Primitive:
 
     @property
     def doc(self) -> str:
-        return (self.cls.__doc__ or "").strip()
+        return inspect.cleandoc(self.cls.__doc__ or "")
 
     @property
     def words(self) -> list[str]:

@@ -62,7 +62,7 @@ class _Run:
         self.y = np.zeros(program.outputs.size)
         self.initial = body.initial_states(values)
         self.delay_steps = program.delay_steps(values)
-        self.lines = [np.zeros(line.capacity) for line in program.delays]
+        self.lines = [np.zeros(size) for size in program.capacities(values)]
         self.before = [None if line.initial is None else values[line.initial] for line in program.delays]
         everyone = range(len(program.model.parts))
         self.views = [views(program, i, self.p, self.u, self.x, self.y) for i in everyone]
@@ -99,6 +99,8 @@ class _Run:
         except _Failed as error:
             failure = str(error)
         stopper = None if stopped_by is None else self.program.part_of_output(stopped_by)
+        # As in native code: the step in which a run fails is not part of its record.
+        record = record[: done + (stopper is not None)]
         rows = np.array(record).reshape(-1, self.y.size) if recorded else None
         return Ending(done, stopper, failure, self.p, self.x, rows)
 

@@ -45,7 +45,6 @@ class Rapid:
         program = self.program
         senders = program.senders
         flat = [sender for each in senders for sender in each]
-        sizes = [line.capacity for line in program.delays]
         return {
             "kernels": _integers([address_of(part.type) for part in program.model.parts]),
             "p_at": _begins(program.parameters),
@@ -58,20 +57,20 @@ class Rapid:
             "source": _integers([source for source, _ in flat]),
             "line": _integers([line for _, line in flat]),
             "line_source": _integers([line.source for line in program.delays]),
-            "line_begin": _integers(np.cumsum([0, *sizes])[:-1]),
-            "line_size": _integers(sizes),
             "stops": _integers([program.outputs.place(i, "stop") for i in program.stops]),
         }
 
     def _tables(self, values: Sequence[float]) -> native.Tables:
         program, steps = self.program, self.program.delay_steps(values)
-        whole = np.floor(steps)
+        whole, sizes = np.floor(steps), program.capacities(values)
         states = self.body.initial_states(values)
         initial = [np.nan if line.initial is None else values[line.initial] for line in program.delays]
         reads, writes, signs = self._ties()
         return native.Tables(
             **self._fixed,
             base=program.input_base(values),
+            line_begin=_integers(np.cumsum([0, *sizes])[:-1]),
+            line_size=sizes,
             line_whole=whole.astype(np.int64),
             line_rest=steps - whole,
             line_initial=np.array(initial, dtype=np.float64),

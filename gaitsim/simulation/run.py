@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from gaitsim.compiler.program import Floats, Program, measures
-from gaitsim.errors import SimulationFailed
+from gaitsim.errors import InvalidSpec, SimulationFailed
 from gaitsim.model import Model, metric_names
 from gaitsim.parts.load import function_of
 from gaitsim.simulation.ending import Ending
@@ -57,7 +57,8 @@ class Simulator:
             values = self.model.values(candidate)
             with np.errstate(all="ignore" if self.mode == "rapid" else "warn"):
                 ending: Ending = self._loop.run(values, steps, recorded)
-        except SimulationFailed as error:
+        except (SimulationFailed, InvalidSpec) as error:
+            # The spec's own numbers were checked: here only a candidate makes an invalid model.
             wall = time.perf_counter() - began
             return Outcome("failed", str(error), 0, simulate.step, {}, None, wall)
         metrics = {} if ending.failure else self._metrics(ending)

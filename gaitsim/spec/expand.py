@@ -8,8 +8,8 @@ from dataclasses import dataclass, field, replace
 from gaitsim.component import Input
 from gaitsim.errors import Faults, GaitsimError, did_you_mean
 from gaitsim.model import Group, Part
-from gaitsim.parts.composite import Composite
-from gaitsim.parts.find import ComponentFile, Library, at
+from gaitsim.parts.composite import ComponentFile, Composite
+from gaitsim.parts.find import Library, at
 from gaitsim.parts.primitive import Primitive
 from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
 from gaitsim.spec.inheritance import merged, without

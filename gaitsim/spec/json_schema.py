@@ -5,8 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from gaitsim.errors import GaitsimError
-from gaitsim.parts.composite import Composite
-from gaitsim.parts.find import ComponentFile, Library
+from gaitsim.parts.composite import ComponentFile, Composite
+from gaitsim.parts.find import Library
 from gaitsim.spec.quantity import example
 from gaitsim.spec.schema import Header
 
