@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from gaitsim.errors import Mark, SimulationFailed
 from gaitsim.parts.primitive import Primitive
@@ -68,10 +68,11 @@ class Part:
 
 @dataclass(frozen=True)
 class Group:
-    """One composite in its place."""
+    """One composite in its place; `before` is the index of the first part opened after it."""
 
     address: str
     reference: str
+    before: int
     mark: Mark
 
 
@@ -124,6 +125,14 @@ class Model:
     def start(self) -> list[float]:
         """The values of the free numbers that `run` uses."""
         return [free.start for free in self.free]
+
+    def started_at(self, values: Mapping[str, float]) -> Model:
+        """The same model with other starts, matched by address and clipped into their bounds."""
+        free = tuple(
+            replace(f, start=min(f.high, max(f.low, values[f.address]))) if f.address in values else f
+            for f in self.free
+        )
+        return replace(self, free=free)
 
     def values(self, candidate: Sequence[float] | None = None) -> list[float]:
         """Every number for a candidate: the values of `free`, in its order.

@@ -16,6 +16,11 @@ def say(text: str) -> None:
     print(text, file=sys.stderr)
 
 
+def rewrite(text: str) -> None:
+    """Talk that replaces the line before, on a terminal."""
+    print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
+
+
 def give(text: str) -> None:
     """Data: on stdout, as it is."""
     print(text)

@@ -1,4 +1,4 @@
-"""The command line: `gaitsim run | check | show | schema | library`."""
+"""The command line: `gaitsim run | optimize | check | show | schema | library | results`."""
 
 from __future__ import annotations
 
@@ -10,21 +10,23 @@ from typing import Annotated
 import typer
 
 from gaitsim import __version__
-from gaitsim.cli import check, console, library, run, schema, show
+from gaitsim.cli import check, console, library, optimize, results, run, schema, show
 from gaitsim.errors import ExitCode, GaitsimError
 
 app = typer.Typer(
-    help="Neuromuscular gait models from YAML: check, simulate, show.",
+    help="Neuromuscular gait models from YAML: check, simulate, tune, show.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
 app.command("run")(run.run)
+app.command("optimize")(optimize.optimize)
 app.command("check")(check.check)
 app.command("show")(show.show)
 app.command("schema")(schema.schema)
 app.add_typer(library.app, name="library")
+app.add_typer(results.app, name="results")
 
 
 def _version(wanted: bool) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -12,7 +13,7 @@ if TYPE_CHECKING:
     from gaitsim.parts.find import Library
     from gaitsim.spec.document import Mapping
 
-Spec = Annotated[Path, typer.Argument(metavar="SPEC", help="A spec, such as specs/hopping_geyer2003.yaml.")]
+Spec = Annotated[Path, typer.Argument(metavar="SPEC", help="A spec, such as specs/hopping_geyer2003.yaml, or a result folder.")]
 Set = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a value of the spec; repeatable."),
@@ -21,7 +22,18 @@ Libraries = Annotated[
     list[Path] | None,
     typer.Option("--library", metavar="FOLDER", help="Another folder of components; repeatable."),
 ]
+Trust = Annotated[bool, typer.Option("--trust", help="Run a result's code even if this machine does not know it.")]
 Json = Annotated[bool, typer.Option("--json", help="One JSON document on stdout.")]
+
+
+RESULTS = Path("results")
+
+
+class ModeName(StrEnum):
+    """The two ways of running a model."""
+
+    rapid = "rapid"
+    normal = "normal"
 
 
 def open_library(spec: Path | None, folders: list[Path] | None) -> Library:

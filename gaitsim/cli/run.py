@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, open_library, read_document
+from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
+from gaitsim.cli.source import Source, open_source
 
 if TYPE_CHECKING:
     from gaitsim.model import Model
@@ -18,13 +18,6 @@ if TYPE_CHECKING:
     from gaitsim.spec.study import Variant
 
 _FAILED = 4
-
-
-class ModeName(StrEnum):
-    """The two ways of running a model."""
-
-    rapid = "rapid"
-    normal = "normal"
 
 
 def run(
@@ -37,10 +30,15 @@ def run(
     ] = None,
     out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write every signal to a CSV file.")] = None,
     no_save: Annotated[bool, typer.Option("--no-save", help="Keep no result folder.")] = False,
+    candidate: Annotated[
+        str | None, typer.Option(metavar="WHICH", help="Of a result: best, a rank, or GENERATION:INDEX.")
+    ] = None,
+    start: Annotated[bool, typer.Option("--start", help="Ignore tuned values beside the spec.")] = False,
+    trust: Trust = False,
     library: Libraries = None,
     json: Json = False,
 ) -> int:
-    """Simulate a spec and print its metrics.
+    """Simulate a spec, or a candidate of a result, and print its metrics.
 
     Examples:
 
@@ -49,19 +47,19 @@ def run(
     gaitsim run specs/hopping_geyer2003.yaml --vary feedback.gain=1:15:8
 
     gaitsim run specs/hopping_geyer2003.yaml --set simulate.step='1 ms' --out hop.csv
+
+    gaitsim run results/2026-11-22-hopping-3f9c --candidate 2
     """
     from gaitsim.errors import Usage
     from gaitsim.simulation.run import Simulator
-    from gaitsim.spec.resolve import resolve
     from gaitsim.spec.study import variants
 
-    document = read_document(spec, settings)
-    components = open_library(spec, library)
-    rows = variants(document, vary or [])
+    source = open_source(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)
+    rows = variants(source.document, vary or [])
     if out is not None and len(rows) > 1:
         raise Usage("--out writes one trajectory; drop --vary or study:, or --set one value.")
-    models = [resolve(row.document, components, spec.stem) for row in rows]
-    for notice in dict.fromkeys(notice for model in models for notice in model.notices):
+    models = [source.model(row.document) for row in rows]
+    for notice in dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]):
         console.say(notice)
     if len(rows) == 1 and not rows[0].settings:
         simulator = Simulator(models[0], mode.value)
@@ -70,7 +68,7 @@ def run(
         outcomes = _all(models, mode)
     folder = None
     if not no_save:
-        folder = _saved(document, models[0], components, mode, rows, outcomes)
+        folder = _saved(source, models[0], mode, rows, outcomes)
     if out is not None:
         from gaitsim.results.store import save_trajectory
 
@@ -89,14 +87,14 @@ def _all(models: Sequence[Model], mode: ModeName) -> list[Outcome]:
 
 
 def _saved(
-    document: Any, model: Model, components: Any, mode: ModeName, rows: Sequence[Variant], outcomes: Sequence[Outcome]
+    source: Source, model: Model, mode: ModeName, rows: Sequence[Variant], outcomes: Sequence[Outcome]
 ) -> Path:
     from gaitsim.compiler.mjcf import assemble
     from gaitsim.results.store import save_run
 
     table = [(row.settings, outcome) for row, outcome in zip(rows, outcomes, strict=True)]
     xml = assemble(model, model.values()).xml
-    return save_run(Path("results"), document, model, components, xml, mode.value, table)
+    return save_run(RESULTS, source.bundle(), model, xml, mode.value, table)
 
 
 def _report(

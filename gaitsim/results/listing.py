@@ -26,25 +26,20 @@ def model_data(model: Model) -> dict[str, Any]:
 
 
 def part_rows(model: Model) -> list[dict[str, Any]]:
-    """Every part, composites included, in the order of the spec."""
-    groups: list[dict[str, Any]] = [{"address": g.address, "use": g.reference, "at": str(g.mark)} for g in model.groups]
-    parts: list[dict[str, Any]] = [
-        {"address": p.address, "use": p.type.reference, "at": str(p.mark)}
-        | ({"fastened": dict(p.attachments)} if p.attachments else {})
-        for p in model.parts
-    ]
-    order = {row["address"]: i for i, row in enumerate([*groups, *parts])}
-    rows = sorted([*groups, *parts], key=lambda row: _tree_key(row["address"], order))
+    """Every part, composites included: children right below their parent, siblings as written."""
+    rows: list[dict[str, Any]] = []
+    groups = list(model.groups)
+    for i, part in enumerate(model.parts):
+        while groups and groups[0].before <= i:
+            group = groups.pop(0)
+            rows.append({"address": group.address, "use": group.reference, "at": str(group.mark)})
+        row: dict[str, Any] = {"address": part.address, "use": part.type.reference, "at": str(part.mark)}
+        if part.attachments:
+            row["fastened"] = dict(part.attachments)
+        rows.append(row)
     if model.objective:
         rows.append({"address": "objective", "use": model.objective.part.type.reference})
     return rows
-
-
-def _tree_key(address: str, order: dict[str, int]) -> tuple[int, ...]:
-    """Children right below their parent, siblings as written."""
-    words = address.split(".")
-    prefixes = [".".join(words[: i + 1]) for i in range(len(words))]
-    return tuple(order.get(prefix, -1) for prefix in prefixes)
 
 
 def parameter_rows(model: Model) -> list[dict[str, Any]]:

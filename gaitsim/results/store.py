@@ -1,23 +1,25 @@
-"""Result folders: open files, complete or absent."""
+"""Result folders: open files, complete or absent, and a manifest that says which."""
 
 from __future__ import annotations
 
 import json
 import math
 import secrets
-from collections.abc import Mapping as Map
-from collections.abc import Sequence
+import shutil
+from collections.abc import Mapping as Map, Sequence
 from datetime import date
 from pathlib import Path
 from typing import Any
 
 from gaitsim.errors import GaitsimError
 from gaitsim.model import Model
-from gaitsim.parts.find import Library
+from gaitsim.results.bundle import Bundle
 from gaitsim.results.listing import model_data
-from gaitsim.results.provenance import provenance
+from gaitsim.results.manifest import new_manifest, write_manifest
+from gaitsim.results.readme import readme
+from gaitsim.results.trust import remember
 from gaitsim.simulation.outcome import Outcome
-from gaitsim.spec.document import Mapping, dump, plain
+from gaitsim.spec.document import dump
 
 
 class CannotSave(GaitsimError):
@@ -27,61 +29,56 @@ class CannotSave(GaitsimError):
 Row = tuple[Map[str, str], Outcome]
 
 
-def save_run(
-    folder: Path, document: Mapping, model: Model, library: Library, xml: str, mode: str, rows: Sequence[Row]
+def create_result(
+    root: Path, bundle: Bundle, model: Model, xml: str, manifest: dict[str, Any], more: Map[str, str]
 ) -> Path:
-    """Write the folder of a run, or of a study with one row per variant; its path.
+    """A new result folder with spec, model, MJCF, components, manifest and more files; its path.
 
-    Errors: CannotSave.
+    Errors: CannotSave, with nothing left behind.
     """
+    draft = None
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        target = _free_name(folder, model.name)
+        root.mkdir(parents=True, exist_ok=True)
+        target = _free_name(root, bundle.name)
         draft = target.with_name(f"{target.name}.partial")
         draft.mkdir()
-        _write(draft, document, model, library, xml, mode, rows)
+        bundle.write(draft)
+        files = {"model.yaml": dump(model_data(model)), "model.xml": xml, **more}
+        for name, text in files.items():
+            (draft / name).write_text(text, encoding="utf-8")
+        write_manifest(draft, manifest)
         draft.replace(target)
     except OSError as error:
+        if draft is not None:
+            shutil.rmtree(draft, ignore_errors=True)
         reason = error.strerror or str(error)
-        raise CannotSave(f"{folder}: the result cannot be saved ({reason}); free it, or use --no-save.") from error
+        raise CannotSave(f"{root}: the result cannot be saved ({reason}); free it, or use --no-save.") from error
+    remember(target)
     return target
 
 
-def _free_name(folder: Path, name: str) -> Path:
-    while True:
-        target = folder / f"{date.today().isoformat()}-{name}-{secrets.token_hex(2)}"
-        if not target.exists() and not target.with_name(f"{target.name}.partial").exists():
-            return target
+def save_run(root: Path, bundle: Bundle, model: Model, xml: str, mode: str, rows: Sequence[Row]) -> Path:
+    """The result of a run, or of a study with one row a variant; its path.
+
+    Errors: CannotSave.
+    """
+    manifest = new_manifest("run", bundle, mode, notices=list(model.notices)) | {"status": "complete"}
+    lines = [json.dumps(row_data(settings, outcome), allow_nan=False) for settings, outcome in rows]
+    headline = [_headline(settings, outcome) for settings, outcome in rows[:20]]
+    more = {"evaluations.jsonl": "\n".join(lines) + "\n", "README.md": readme(manifest, headline, "")}
+    return create_result(root, bundle, model, xml, manifest, more)
 
 
-def _write(
-    folder: Path, document: Mapping, model: Model, library: Library, xml: str, mode: str, rows: Sequence[Row]
-) -> None:
-    components = {reference: part.digest for reference, part in library.used().items()}
-    manifest = {
-        "kind": "run",
-        "status": "complete",
-        "name": model.name,
-        "mode": mode,
-        **provenance(),
-        "components": components,
-        "notices": list(model.notices),
-    }
-    (folder / "spec.yaml").write_text(dump(plain(document)), encoding="utf-8")
-    (folder / "model.yaml").write_text(dump(model_data(model)), encoding="utf-8")
-    (folder / "model.xml").write_text(xml, encoding="utf-8")
-    for reference, component in library.used().items():
-        copy = folder / "components" / f"{reference}{component.path.suffix}"
-        copy.parent.mkdir(parents=True, exist_ok=True)
-        copy.write_text(component.source, encoding="utf-8")
-    lines = [json.dumps(evaluation(settings, outcome), allow_nan=False) for settings, outcome in rows]
-    (folder / "evaluations.jsonl").write_text("\n".join(lines) + "\n", encoding="utf-8")
-    (folder / "README.md").write_text(_readme(model, manifest, rows), encoding="utf-8")
-    (folder / "manifest.json").write_text(json.dumps(manifest, indent=2) + "\n", encoding="utf-8")
+def finish(folder: Path, manifest: dict[str, Any], headline: Sequence[str]) -> None:
+    """Write the README, keeping the researcher's notes, and the final manifest. Errors: OSError."""
+    path = folder / "README.md"
+    before = path.read_text(encoding="utf-8") if path.is_file() else ""
+    path.write_text(readme(manifest, headline, before), encoding="utf-8")
+    write_manifest(folder, manifest)
 
 
-def evaluation(settings: Map[str, str], outcome: Outcome) -> dict[str, Any]:
-    """One evaluation as data; numbers that are not finite are null."""
+def row_data(settings: Map[str, str], outcome: Outcome) -> dict[str, Any]:
+    """One run as data; numbers that are not finite are null."""
     return {
         "settings": dict(settings),
         "status": outcome.status,
@@ -93,15 +90,17 @@ def evaluation(settings: Map[str, str], outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def _readme(model: Model, manifest: dict[str, Any], rows: Sequence[Row]) -> str:
-    commit = manifest["commit"]
-    origin = f"commit {commit['hash'][:12]}{' with changes' if commit['dirty'] else ''}" if commit else "no commit"
-    lines = [f"# {model.name}", "", f"gaitsim {manifest['gaitsim']}, {manifest['created']}, {origin}.", ""]
-    for settings, outcome in rows[:20]:
-        said = ", ".join(f"{a} = {v}" for a, v in settings.items())
-        numbers = ", ".join(f"{n} {v:.5g}" for n, v in outcome.metrics.items())
-        lines.append(f"- {said + ': ' if said else ''}{outcome.status}{': ' + numbers if numbers else ''}")
-    return "\n".join([*lines, "", "## Notes", "", ""])
+def _headline(settings: Map[str, str], outcome: Outcome) -> str:
+    said = ", ".join(f"{address} = {value}" for address, value in settings.items())
+    numbers = ", ".join(f"{name} {value:.5g}" for name, value in outcome.metrics.items())
+    return f"{said + ': ' if said else ''}{outcome.status}{': ' + numbers if numbers else ''}"
+
+
+def _free_name(root: Path, name: str) -> Path:
+    while True:
+        target = root / f"{date.today().isoformat()}-{name}-{secrets.token_hex(2)}"
+        if not target.exists() and not target.with_name(f"{target.name}.partial").exists():
+            return target
 
 
 def save_trajectory(path: Path, outcome: Outcome) -> None:
@@ -121,5 +120,6 @@ def save_trajectory(path: Path, outcome: Outcome) -> None:
                 file.write(",".join([f"{time:.9g}", *(repr(float(v)) for v in row)]) + "\n")
         draft.replace(path)
     except OSError as error:
+        draft.unlink(missing_ok=True)
         reason = error.strerror or str(error)
         raise CannotSave(f"{path}: the trajectory cannot be written ({reason}); choose another --out.") from error

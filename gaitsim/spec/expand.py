@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from collections.abc import Sequence as Many
 from dataclasses import dataclass, field, replace
 
-from gaitsim.component import Input
-from gaitsim.errors import Faults, GaitsimError, did_you_mean
+from gaitsim.component import Input, Parameter
+from gaitsim.component import Part as InnerPart
+from gaitsim.errors import Faults, GaitsimError, Mark, did_you_mean, nearest, with_article
 from gaitsim.model import Group, Part
 from gaitsim.parts.composite import ComponentFile, Composite
 from gaitsim.parts.find import Library, at
@@ -16,7 +19,9 @@ from gaitsim.spec.inheritance import merged, without
 from gaitsim.spec.numbers import NumberTable
 from gaitsim.spec.points import PointReader
 from gaitsim.spec.ports import PortReader, Wire
+from gaitsim.spec.quantity import example
 from gaitsim.spec.scope import Scope, Where
+from gaitsim.spec.spelling import respelled
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _SIDES = ("l", "r")
@@ -41,20 +46,24 @@ class Expansion:
 
     def __post_init__(self) -> None:
         self.ports = PortReader(self.table, self.faults)
-        self.points = PointReader(self.table, self.faults)
+        self.points = PointReader(self.table, self.faults, self.frames, self.is_broken)
 
     @property
     def wires(self) -> list[Wire]:
         return self.ports.wires
 
+    def is_broken(self, name: str) -> bool:
+        """Whether a name lies in what could not be opened; that has been said already."""
+        return any(name == part or name.startswith(f"{part}.") for part in self.broken)
+
     def section(self, section: Mapping, scope: Scope, side: str = "", measure: bool = False) -> None:
         """Open every entry of `parts:` or `measures:`."""
-        sided = {name: _sides(node, self.faults, name) for name, node in section.entries.items()}
-        overrides = {f"{name}_{s}" for name, sides in sided.items() for s in sides}
-        for name, sides in sided.items():
-            names = tuple(f"{name}_{s}" for s in sides) or (name,)
+        sided = {name: sides(node, self.faults, name) for name, node in section.entries.items()}
+        overrides = {f"{name}_{s}" for name, both in sided.items() for s in both}
+        for name, both in sided.items():
+            names = tuple(f"{name}_{s}" for s in both) or (name,)
             scope.children.update({each: scope.below(each) for each in names})
-            if sides:
+            if both:
                 scope.sided[name] = names
         for name, node in section.entries.items():
             mark = section.keys[name]
@@ -62,20 +71,24 @@ class Expansion:
             if not _NAME.fullmatch(name):
                 rule = f'"{name}" is no name; use letters, digits and _ and begin with a letter.'
                 self.faults.add(rule, mark, where.address)
+                self.broken.add(where.address)
+                continue
             if isinstance(node, Scalar) and node.value is None:
                 others = [other for other in section.entries if other != name]
                 rule = f"there is nothing to remove. {did_you_mean(name, others)}"
                 self.faults.add(rule, mark, where.address)
+                self.broken.add(where.address)
                 continue
             if not isinstance(node, Mapping):
                 rule = "a part is a mapping that begins with use:, such as {use: segment/rod}."
                 self.faults.add(rule, mark, where.address)
+                self.broken.add(where.address)
                 continue
             for s in sided[name]:
                 over = section.entries.get(f"{name}_{s}")
                 own = replace(where, address=scope.below(f"{name}_{s}"), side=s)
-                both = without(node, "sides")
-                self._entry(merged(both, over) if isinstance(over, Mapping) else both, own)
+                own_node = without(node, "sides")
+                self._entry(merged(own_node, over) if isinstance(over, Mapping) else own_node, own)
             if not sided[name] and name not in overrides:
                 self._entry(node, where)
 
@@ -97,7 +110,11 @@ class Expansion:
     def _component(self, node: Mapping, where: Where) -> tuple[ComponentFile | None, frozenset[str]]:
         use = node.entries.get("use")
         if use is None:
-            self.faults.add("says no component; write use: kind/name.", where.mark, where.address)
+            # An entry without `use` sets something of a part that is there: of which, if it is not?
+            name = where.address.rpartition(".")[2]
+            near = nearest(name, where.scope.children.keys() - {name})
+            hint = f" Did you mean {near}?" if near else ""
+            self.faults.add(f"names no component; write use: kind/name.{hint}", where.mark, where.address)
             return None, frozenset()
         if not isinstance(use, Scalar) or not isinstance(use.value, str):
             rule = "use: names a component, such as muscle/geyer2003."
@@ -116,35 +133,32 @@ class Expansion:
 
     def _known_words(self, node: Mapping, found: ComponentFile, where: Where, swapped: frozenset[str]) -> Mapping:
         """The entry without what a swapped-in part lacks; other unknown words are faults."""
-        known = [*found.words, *_STRUCTURE]
-        unknown = [word for word in node.entries if word not in known]
-        for word in unknown:
-            if word in swapped:
-                self.notices.append(f"{where.address}: {found.reference} has no {word}; dropped")
-            else:
-                hint = did_you_mean(word, known)
-                self.faults.add(f"{found.reference} has no {word}. {hint}", node.keys[word], where.address)
-        return without(node, *unknown)
+        dropped = [word for word in node.entries if word in swapped and word not in (*found.words, *_STRUCTURE)]
+        self.notices += [f"{where.address}: {found.reference} has no {word}; dropped" for word in dropped]
+        kept = without(node, *dropped)
+        return respelled(kept, found.words, found.reference, self.faults, where.address, more=_STRUCTURE)
 
     def _composite(self, found: Composite, node: Mapping, where: Where) -> None:
         chain = where.scope.references
         if found.reference in chain:
             ring = " -> ".join([*chain[chain.index(found.reference) :], found.reference])
             self.faults.add(f"a composite contains itself: {ring}; take one of them out.", where.mark, where.address)
+            self.broken.add(where.address)
             return
         address = where.address
-        self.groups.append(Group(address, found.reference, where.mark))
+        self.groups.append(Group(address, found.reference, len(self.parts), where.mark))
         inside = Scope(
             address, where.logical, found.document.mark.file, {}, found.reference, outer=where.scope
         )
         for name, declared in found.parameters.items():
             given = node.entries.get(name, found.defaults.get(name))
             if given is None:
-                self.faults.add(f"needs {name} in {declared.unit}; write it.", where.mark, address)
+                self.faults.add(_needs(name, declared), where.mark, address)
             names = where.scope.names if name in node.entries else dict(inside.names)
             index = self.table.add(f"{address}.{name}", f"{where.logical}.{name}", given, declared, names)
             inside.names[name] = (index, declared.unit)
-        inside.attachments = self.ports.attachments(found.attachments, node, where)
+        inside.attachments = dict.fromkeys(found.attachments, "")
+        inside.attachments |= self.ports.attachments(found.attachments, node, where)
         self.frames.update({f"{address}.{n}": f"{address}.{t}" for n, t in found.frames.items()})
         self.outputs.update({f"{address}.{n}": f"{address}.{t}" for n, t in found.outputs.items()})
         for name, targets in found.inputs.items():
@@ -153,6 +167,25 @@ class Expansion:
         self.ports.to(node, list(found.outputs), where)
         own = without(node, *(word for word in node.entries if word not in found.parts.entries))
         self.section(merged(found.parts, own), inside, where.side, where.measure)
+        self._exposed(found, address)
+
+    def _exposed(self, found: Composite, address: str) -> None:
+        """Every name that a composite shows outside stands for something inside."""
+        self._shown("frame", [*found.frames.items()], self.frames, found, address)
+        self._shown("output", [*found.outputs.items()], self.outputs, found, address)
+        inputs = [(name, target) for name, targets in found.inputs.items() for target in targets]
+        self._shown("input", inputs, self.inputs, found, address)
+
+    def _shown(
+        self, what: str, pairs: Many[tuple[str, str]], known: Iterable[str], found: Composite, address: str
+    ) -> None:
+        below = f"{address}."
+        inside = {name.removeprefix(below) for name in known if name.startswith(below)} - {name for name, _ in pairs}
+        for name, target in pairs:
+            if target not in inside and not self.is_broken(below + target):
+                rule = f"there is no {what} {target} inside. {did_you_mean(target, inside)}"
+                self.faults.add(rule, found.mark(f"{what}s", name), f"{found.reference}.{name}")
+                self.broken.add(below + name)
 
     def _primitive(self, found: Primitive, node: Mapping, where: Where) -> None:
         address = where.address
@@ -160,8 +193,7 @@ class Expansion:
         for name, declared in found.parameters.items():
             given = node.entries.get(name)
             if given is None and declared.default is None:
-                rule = f"needs {name} in {declared.unit} ({declared.doc.rstrip('.')}); write it."
-                self.faults.add(rule, where.mark, address)
+                self.faults.add(_needs(name, declared), where.mark, address)
             names = where.scope.names
             numbers[name] = self.table.add(f"{address}.{name}", f"{where.logical}.{name}", given, declared, names)
         self.outputs.update({f"{address}.{name}": f"{address}.{name}" for name in found.outputs})
@@ -190,13 +222,13 @@ class Expansion:
         """The parts inside a primitive, such as a muscle's path, and their wiring."""
         for name, slot in found.parts.items():
             own = node.entries.get(name, Mapping({}, {}, where.mark))
-            rule = f"{name}: {{use: {slot.kind}/...}}"
-            if not isinstance(own, Mapping):
-                self.faults.add(f"{name} is a part; write {rule}.", own.mark, where.address)
+            wrong, mark = self._slot_fault(name, slot, own, where)
+            if wrong:
+                self.faults.add(wrong, mark, where.address)
+                self.broken.add(f"{where.address}.{name}")
+                self.ports.tried |= {f"{where.address}.{mine}" for mine, _ in slot.reads}
                 continue
-            if "use" not in own.entries and slot.default is None:
-                self.faults.add(f"needs {name} ({slot.doc.rstrip('.')}); write {rule}.", where.mark, where.address)
-                continue
+            assert isinstance(own, Mapping)
             default = Scalar(slot.default, where.mark)
             entry = merged(Mapping({"use": default}, {"use": where.mark}, own.mark), own)
             inner = replace(
@@ -214,18 +246,41 @@ class Expansion:
                 else:
                     self.inputs[f"{where.address}.{mine}"].append(f"{inner.address}.{theirs}")
 
+    def _slot_fault(self, name: str, slot: InnerPart, own: Node, where: Where) -> tuple[str, Mark]:
+        """What is wrong with the entry of an inner part, and where; empty if it can be opened."""
+        sample = f"{name}: {{use: {next(iter(self.library.references(slot.kind)), f'{slot.kind}/...')}, ...}}"
+        if not isinstance(own, Mapping):
+            return f"{name} is a part of its own; write {sample}.", own.mark
+        use = own.entries.get("use")
+        if use is None:
+            missing = f"needs {name} ({slot.doc.rstrip('.')}); write {sample}."
+            return ("" if slot.default else missing), where.mark
+        reference = use.value if isinstance(use, Scalar) else None
+        kind = reference.split("/")[0] if isinstance(reference, str) else slot.kind
+        if kind != slot.kind and kind in self.library.kinds():
+            return f"{name} is {with_article(slot.kind)}, and {reference} is none; write {sample}.", use.mark
+        return "", own.mark
+
+
+def _needs(name: str, declared: Parameter) -> str:
+    about = f" ({declared.doc.rstrip('.')})" if declared.doc else ""
+    return f'needs {name}{about}; write {name}: {example(declared.unit)}.'
+
 
 def _join(*words: str) -> str:
     return ".".join(word for word in words if word)
 
 
-def _sides(node: Node, faults: Faults, name: str) -> tuple[str, ...]:
-    sides = node.entries.get("sides") if isinstance(node, Mapping) else None
-    if sides is None:
+def sides(node: Node, faults: Faults | None = None, name: str = "") -> tuple[str, ...]:
+    """The sides that an entry is made for; none if it has no `sides:`."""
+    given = node.entries.get("sides") if isinstance(node, Mapping) else None
+    if given is None:
         return ()
-    items = sides.items if isinstance(sides, Sequence) else (sides,)
+    items = given.items if isinstance(given, Sequence) else (given,)
     words = tuple(str(item.value) for item in items if isinstance(item, Scalar))
     if not words or len(set(words)) != len(items) or not set(words) <= set(_SIDES):
-        faults.add("sides is [l, r], [l] or [r].", sides.mark, name)
+        if faults is not None:
+            said = f'"{", ".join(words)}" names no sides' if words else "this names no sides"
+            faults.add(f"{said}; write sides: [l, r], [l] or [r].", given.mark, name)
         return ()
     return words

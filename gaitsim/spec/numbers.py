@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import math
+from dataclasses import dataclass, field, replace
 
 from gaitsim.component import Parameter
-from gaitsim.errors import Faults, did_you_mean
+from gaitsim.errors import Faults
 from gaitsim.model import Free, Number
 from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
 from gaitsim.spec.expression import BadExpression, parse_expression
 from gaitsim.spec.inheritance import VALUE_KEYS
-from gaitsim.spec.quantity import number
+from gaitsim.spec.quantity import example, number, said
+from gaitsim.spec.spelling import respelled
 from gaitsim.units import parse_unit
 
 Names = dict[str, tuple[int, str]]
@@ -31,6 +33,7 @@ class NumberTable:
     numbers: list[Number] = field(default_factory=list)
     index: dict[str, int] = field(default_factory=dict)
     _free: dict[tuple[str, int], Free] = field(default_factory=dict)
+    _computed: dict[int, tuple[Parameter, Node]] = field(default_factory=dict)  # expressions, by index
 
     def add(
         self,
@@ -43,9 +46,29 @@ class NumberTable:
     ) -> int:
         """Add one number; `logical` is its address as written once for all sides."""
         made = self._number(address, logical, node, declared, names, fraction_of)
+        if fraction_of is not None:
+            made = replace(made, unit=self.numbers[fraction_of].unit)
         self.index[address] = len(self.numbers)
         self.numbers.append(made)
         return self.index[address]
+
+    def check_computed(self) -> None:
+        """Every expression has a value at the start, and one within bounds."""
+        values: list[float] = []
+        for i, each in enumerate(self.numbers):
+            values.append(each.value)
+            if each.expression is None:
+                continue
+            declared, node = self._computed[i]
+            try:
+                values[i] = each.expression.value(values)
+                if not math.isfinite(values[i]):
+                    raise ArithmeticError("it is not finite")
+            except (ArithmeticError, ValueError) as error:
+                rule = f"{each.expression.text} has no value here ({error}); mend it, or the numbers in it."
+                self.faults.add(rule, node.mark, each.address)
+                return
+            self._within(values[i], declared, node, each.address)
 
     def free(self) -> tuple[Free, ...]:
         """The tuned numbers, in the order of the spec."""
@@ -68,8 +91,9 @@ class NumberTable:
             try:
                 expression = parse_expression(text[1:], declared.unit, names)
             except BadExpression as error:
-                self.faults.add(f"{error}.", node.mark, address)
+                self.faults.add(str(error), node.mark, address)
                 return Number(address, declared.unit, mark=node.mark)
+            self._computed[len(self.numbers)] = (declared, node)
             return Number(address, declared.unit, expression=expression, mark=node.mark)
         if isinstance(node, Mapping):
             return self._mapping(address, logical, node, declared, names, fraction_of)
@@ -93,31 +117,31 @@ class NumberTable:
         names: Names,
         fraction_of: int | None,
     ) -> Number:
-        for word, mark in node.keys.items():
-            if word not in VALUE_KEYS:
-                self.faults.add(f"{word} is no field of a value. {did_you_mean(word, VALUE_KEYS)}", mark, address)
+        shared = node  # one tune written for both sides is one number
+        node = respelled(node, sorted(VALUE_KEYS), "a value", self.faults, address)
         source = node.entries.get("source")
-        said = str(source.value) if isinstance(source, Scalar) else declared.source
+        origin = str(source.value) if isinstance(source, Scalar) else declared.source
         value_node = node.entries.get("value")
         value: float | None = None
         if value_node is not None:
             if "tune" not in node.entries:
                 made = self._number(address, logical, value_node, declared, names, fraction_of)
-                return Number(**{**made.__dict__, "source": said})
+                return replace(made, source=origin)
             value = number(value_node, declared.unit, self.faults, address)
             if value is not None:
                 self._within(value, declared, value_node, address)
         elif declared.default is not None:
             value = declared.default * parse_unit(declared.unit).factor
         if "tune" not in node.entries:
-            self.faults.add("says no value; write value: or tune: [low, high]", node.mark, address)
+            rule = f"has no value; write value: {example(declared.unit)}, or tune: with a lower and a higher one."
+            self.faults.add(rule, node.mark, address)
             return Number(address, declared.unit, mark=node.mark)
-        return self._tuned(address, logical, node, declared, value, said, fraction_of)
+        return self._tuned(address, (logical, id(shared)), node, declared, value, origin, fraction_of)
 
     def _tuned(
         self,
         address: str,
-        logical: str,
+        key: tuple[str, int],
         node: Mapping,
         declared: Parameter,
         value: float | None,
@@ -130,27 +154,27 @@ class NumberTable:
         low, high = bounds
         start = (low + high) / 2 if value is None else value
         if not low <= start <= high:
-            unit = parse_unit(declared.unit)
-            shown = f"{start / unit.factor:g} is outside [{low / unit.factor:g}, {high / unit.factor:g}] {unit.text}"
-            self.faults.add(f"the start {shown}; move it or widen tune", node.mark, address)
+            rule = f"the start, {said(node.entries['value'])}, is outside {_range(low, high, declared.unit)}"
+            self.faults.add(f"{rule}; move it, or widen tune.", node.entries["value"].mark, address)
         spread_node = node.entries.get("spread")
         spread = (high - low) / 4
         if spread_node is not None:
             given = number(spread_node, declared.unit, self.faults, address)
             if given is not None and given <= 0:
-                self.faults.add("the spread must be positive", spread_node.mark, address)
+                rule = f"a spread is above 0, and this is {said(spread_node)}; write such as a quarter of the range."
+                self.faults.add(rule, spread_node.mark, address)
             spread = given or spread
-        key = (logical, id(node))
         known = self._free.get(key)
         drives = (*known.drives, address) if known else (address,)
-        name = logical if known else address
+        name = key[0] if known else address
         self._free[key] = Free(name, declared.unit, low, high, start, spread, source, drives, node.mark)
         which = list(self._free).index(key)
         return Number(address, declared.unit, start, which, fraction_of=fraction_of, source=source, mark=node.mark)
 
     def _bounds(self, node: Node, declared: Parameter, address: str) -> tuple[float, float] | None:
         if not isinstance(node, Sequence) or len(node.items) != 2:
-            self.faults.add("tune is two bounds, such as tune: [0, 5]", node.mark, address)
+            pair = ", ".join(f"{bound}{_suffix(declared.unit)}" for bound in (1, 5))
+            self.faults.add(f"tune needs two bounds; write such as tune: [{pair}].", node.mark, address)
             return None
         low, high = (number(item, declared.unit, self.faults, address) for item in node.items)
         if low is None or high is None:
@@ -158,8 +182,9 @@ class NumberTable:
         for bound, item in ((low, node.items[0]), (high, node.items[1])):
             self._within(bound, declared, item, address)
         if low >= high:
-            word = "equal" if low == high else "reversed"
-            self.faults.add(f"the bounds are {word}; write the lower one first, then a higher one", node.mark, address)
+            word, move = ("reversed", "exchange them") if low > high else ("equal", "write a lower and a higher one")
+            rule = f"the bounds {said(node.items[0])} and {said(node.items[1])} are {word}; {move}."
+            self.faults.add(rule, node.mark, address)
             return None
         return low, high
 
@@ -170,13 +195,18 @@ class NumberTable:
         low, high = declared.bounds
         given = value / unit.factor
         if not low - 1e-12 * abs(low) <= given <= high + 1e-12 * abs(high):
-            self.faults.add(
-                f"{given:g} {_suffix(unit.text)}is outside the bounds of {declared.doc.rstrip('.').lower() or 'this'}:"
-                f" {low:g} to {high:g}{' ' + unit.text if unit.text != '1' else ''}; choose a value between",
-                node.mark,
-                address,
-            )
+            shown = f"{given:g}{_suffix(declared.unit)}"
+            words = said(node) if isinstance(node, Scalar) else f'"{shown}"'
+            if words != f'"{shown}"':
+                words += f" is {shown}, which"
+            rule = f"{words} is outside {_range(low * unit.factor, high * unit.factor, declared.unit)}"
+            self.faults.add(f"{rule}; choose a value between.", node.mark, address)
+
+
+def _range(low: float, high: float, unit: str) -> str:
+    factor = parse_unit(unit).factor
+    return f"{low / factor:g} to {high / factor:g}{_suffix(unit)}"
 
 
 def _suffix(unit: str) -> str:
-    return "" if unit == "1" else f"{unit} "
+    return "" if unit == "1" else f" {unit}"

@@ -7,10 +7,11 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from gaitsim.errors import Faults, Mark, did_you_mean
+from gaitsim.errors import Faults, Mark
 from gaitsim.spec.document import Mapping, Node, Sequence, plain
-from gaitsim.spec.quantity import example, mismatch, needed
-from gaitsim.units import UnknownUnit, known_units, parse_quantity, parse_unit
+from gaitsim.spec.quantity import example, mismatch, needed, unknown_unit
+from gaitsim.spec.spelling import respelled
+from gaitsim.units import UnknownUnit, parse_quantity, parse_unit
 
 
 def _quantity(unit: str, above: float | None = None) -> tuple[BeforeValidator, WithJsonSchema]:
@@ -22,8 +23,7 @@ def _quantity(unit: str, above: float | None = None) -> tuple[BeforeValidator, W
         try:
             quantity = parse_quantity(value)
         except UnknownUnit as error:
-            text = f"'{error}' is no known unit. {did_you_mean(str(error), known_units())}"
-            raise PydanticCustomError("quantity", "{text}", {"text": text}) from error
+            raise PydanticCustomError("quantity", "{text}", {"text": unknown_unit(str(error))}) from error
         if quantity is None:
             raise PydanticCustomError("quantity", "{text}", {"text": f'"{value}" is no number; {needed(unit)}.'})
         message = mismatch(quantity, parse_unit(unit))
@@ -35,6 +35,24 @@ def _quantity(unit: str, above: float | None = None) -> tuple[BeforeValidator, W
 
     schema = {"type": ["string", "number"], "examples": [example(unit)], "description": f"In {unit}."}
     return BeforeValidator(convert), WithJsonSchema(schema)
+
+
+_SAMPLES = {
+    "gaitsim": "1",
+    "about": "Hopping in place.",
+    "extends": "walk.yaml",
+    "use_for": "{muscle: muscle/geyer2003}",
+    "parameters": "{height: {unit: m, default: 1.8 m}}",
+    "parts": "{thigh: {use: segment/rod, ...}}",
+    "initial": "{knee.angle: 5 deg}",
+    "measures": "{swing: {use: measure/range, ...}}",
+    "objective": "{use: objective/minimize, value: {from: swing}}",
+    "simulate": "{duration: 10 s, step: 1 ms}",
+    "study": "[{feedback.gain: 2}, {feedback.gain: 3}]",
+    "duration": "10 s",
+    "step": "1 ms",
+}
+_MOST_STEPS = 1e12  # days of computing, and what an integer of 64 bits holds with ease
 
 
 class _Section(BaseModel):
@@ -60,6 +78,15 @@ class SimulateSection(_Section):
     )
 
 
+class OptimizeSection(_Section):
+    """How the spec is searched; the command line may say otherwise."""
+
+    algorithm: str = Field(default="cma", description="Search algorithm.")
+    population: Annotated[int, Field(ge=2)] | None = Field(default=None, description="Candidates a generation.")
+    generations: int = Field(default=100, ge=1, description="Generations at most.")
+    seed: int = Field(default=1, ge=0, description="Seed of the search.")
+
+
 class Header(_Section):
     """A spec, as far as its shape is fixed; parts are checked against their components."""
 
@@ -68,43 +95,64 @@ class Header(_Section):
     extends: str = Field(default="", description="A spec to start from; path relative to this file.")
     use_for: dict[str, str] = Field(default={}, description="A component for every part of a kind.")
     parameters: dict[str, Any] = Field(default={}, description="Numbers used in several places as =name.")
-    parts: dict[str, Any] = Field(description="The model's parts, by name.")
+    parts: dict[str, Any] = Field(description="The model's parts, by name.", min_length=1)
     initial: dict[str, Any] = Field(default={}, description="Initial coordinates and states, by address.")
     measures: dict[str, Any] = Field(default={}, description="What is measured in the loop, by name.")
     objective: dict[str, Any] = Field(default={}, description="The component that turns metrics into a cost.")
     simulate: SimulateSection = Field(description="Duration and step.")
+    optimize: OptimizeSection = Field(default=OptimizeSection(), description="How the spec is searched.")
     study: list[dict[str, Any]] = Field(default=[], description="Overrides, one run each: a table.")
 
 
-def header(document: Mapping, faults: Faults) -> Header | None:
-    """The header of a document; None after faults."""
+_SECTIONS: dict[str, type[_Section]] = {"simulate": SimulateSection, "optimize": OptimizeSection}
+
+
+def optimize_section(document: Mapping) -> OptimizeSection:
+    """How a resolved document wants to be searched."""
+    section = document.entries.get("optimize")
+    return OptimizeSection.model_validate(plain(section) if isinstance(section, Mapping) else {})
+
+
+def header(document: Mapping, faults: Faults) -> tuple[Header | None, Mapping]:
+    """The header of a document, None after faults, and the document with its keys as they were meant."""
+    document = respelled(document, Header.model_fields, "a spec", faults)
+    for name, model in _SECTIONS.items():
+        section = document.entries.get(name)
+        if isinstance(section, Mapping):
+            own = respelled(section, model.model_fields, name, faults)
+            document = Mapping(document.entries | {name: own}, document.keys, document.mark)
     try:
-        data = {key: value for key, value in plain(document).items() if value is not None}
-        return Header.model_validate(data)
+        made = Header.model_validate({k: v for k, v in plain(document).items() if v is not None})
     except ValidationError as error:
         for detail in error.errors(include_url=False):
             _report(detail, document, faults)
-        return None
+        return None, document
+    _check_steps(made.simulate, document, faults)
+    return made, document
+
+
+def _check_steps(simulate: SimulateSection, document: Mapping, faults: Faults) -> None:
+    steps = simulate.duration / simulate.step
+    if not 1 <= steps <= _MOST_STEPS:
+        rule = f"{simulate.duration:g} s in steps of {simulate.step:g} s"
+        word = f"are {steps:.3g} steps, more than {_MOST_STEPS:g}" if steps > 1 else "hold not one step"
+        move = "write a shorter duration or a longer step" if steps > 1 else "write a shorter step"
+        faults.add(f"{rule} {word}; {move}.", _mark(document, ["simulate", "step"]), "simulate.step")
 
 
 def _report(detail: Any, document: Mapping, faults: Faults) -> None:
+    """One mistake that pydantic found, in our words."""
     path = [word for word in detail["loc"] if word != "[key]"]
     address = ".".join(str(word) for word in path)
+    name = str(path[-1])
+    model = _SECTIONS.get(str(path[0]), Header) if len(path) == 2 else Header
+    field = model.model_fields.get(name)
+    sample = f"{name}: {_SAMPLES[name]}" if field and name in _SAMPLES else ""
     mark = _mark(document, path)
     match detail["type"]:
-        case "extra_forbidden":
-            section, word = path[:-1], str(path[-1])
-            model = SimulateSection if section == ["simulate"] else Header
-            where = ".".join(map(str, section)) or "a spec"
-            message = f"{word} is no key of {where}. {did_you_mean(word, model.model_fields)}"
-            faults.add(message, mark)
         case "missing":
-            field = (SimulateSection if len(path) == 2 else Header).model_fields[str(path[-1])]
-            sample = {"gaitsim": "gaitsim: 1", "parts": "parts: and below it the parts"}
-            sample |= {"simulate": "simulate: {duration: 10 s, step: 1 ms}"}
-            sample |= {"duration": "duration: 10 s", "step": "step: 1 ms"}
-            message = f"is missing ({(field.description or '').rstrip('.').lower()}); write {sample[str(path[-1])]}."
-            faults.add(message, mark, address)
+            about = ((field.description or "") if field else "").rstrip(".")
+            faults.add(f"is missing ({about[:1].lower()}{about[1:]}); write {sample}.", mark, address)
         case "quantity":
             faults.add(detail["msg"], mark, address)
         case "literal_error" if path == ["gaitsim"]:
@@ -113,13 +161,16 @@ def _report(detail: Any, document: Mapping, faults: Faults) -> None:
             choices = detail["ctx"]["expected"].replace("'", "")
             extra = " (RK4 would silently become Euler here)" if str(detail["input"]).lower() == "rk4" else ""
             faults.add(f'"{detail["input"]}" is not offered{extra}; choose {choices}.', mark, address)
+        case "too_short":
+            faults.add(f"there is nothing in it; write {sample}.", mark, address)
+        case "greater_than_equal":
+            faults.add(f"{detail['input']} is too small; this is at least {detail['ctx']['ge']}.", mark, address)
+        case "int_type" | "int_parsing" | "int_from_float":
+            faults.add(f'"{detail["input"]}" is no whole number; write {name}: 16.', mark, address)
         case kind:
-            wanted = {
-                "dict_type": "a mapping of names",
-                "string_type": "a text",
-                "list_type": "a list of overrides",
-            }
-            faults.add(f"this needs {wanted.get(kind, detail['msg'])}.", mark, address)
+            wanted = {"string_type": "a text", "list_type": "a list"}.get(kind, "a mapping of names")
+            move = f"; write {sample}" if sample else ""
+            faults.add(f"this needs {wanted}{move}.", mark, address)
 
 
 def _mark(document: Mapping, path: list[Any]) -> Mark:

@@ -1,0 +1,128 @@
+"""gaitsim optimize: tune a spec, on all cores or a cluster; resume what was interrupted."""
+
+from __future__ import annotations
+
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gaitsim.cli import console
+from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
+
+if TYPE_CHECKING:
+    from gaitsim.cli.tuning import Tuning
+    from gaitsim.optimization.search import Progress
+
+_INTERRUPTED = 130
+
+
+def optimize(
+    spec: Spec,
+    algorithm: Annotated[str | None, typer.Option(help="Search algorithm (default: cma).")] = None,
+    population: Annotated[int | None, typer.Option(help="Candidates a generation.")] = None,
+    generations: Annotated[int | None, typer.Option(help="Generations at most.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Seed of the search.")] = None,
+    workers: Annotated[int | None, typer.Option(help="Processes; 0: this one (default: all cores).")] = None,
+    cluster: Annotated[bool, typer.Option("--cluster", help="Use the workers of a scheduler that runs.")] = False,
+    scheduler: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Such as tcp://127.0.0.1:8786.")] = None,
+    scheduler_file: Annotated[Path | None, typer.Option(metavar="FILE", help="A file that it wrote.")] = None,
+    mode: Annotated[ModeName | None, typer.Option(help="rapid, or normal for debugging.")] = None,
+    smoke: Annotated[bool, typer.Option("--smoke", help="Two generations of four: does it all work?")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue the newest search of this spec.")] = False,
+    origin: Annotated[str | None, typer.Option("--from", metavar="WHERE", help="Start at tuned, or a result.")] = None,
+    adopt: Annotated[bool, typer.Option("--adopt", help="Write the best values beside the spec.")] = False,
+    trust: Trust = False,
+    settings: Set = None,
+    library: Libraries = None,
+    json: Json = False,
+) -> int:
+    """Tune a spec's parameters; every evaluation is kept, and an interrupted search continues.
+
+    Examples:
+
+    gaitsim optimize specs/hopping_geyer2003.yaml --seed 1
+
+    gaitsim optimize specs/hopping_geyer2003.yaml --workers 0 --mode normal --smoke
+
+    gaitsim optimize specs/hopping_geyer2003.yaml --cluster --scheduler tcp://127.0.0.1:8786
+
+    gaitsim optimize specs/hopping_geyer2003.yaml --resume
+    """
+    from gaitsim.cli.tuning import Request, begun, resumed
+
+    request = Request(
+        spec, algorithm, population, generations, seed, mode.value if mode else None, smoke, origin, settings, library, trust
+    )
+    workplace = _workplace(workers, cluster, scheduler, scheduler_file)
+    tuning = resumed(request, RESULTS) if resume else begun(request, RESULTS)
+    for notice in tuning.notices:
+        console.say(notice)
+    began = time.perf_counter()
+    try:
+        progress = _search(tuning, workplace)
+    except KeyboardInterrupt:
+        console.say(f"\ninterrupted; everything is saved. To continue: gaitsim optimize {tuning.folder} --resume")
+        return _INTERRUPTED
+    wall = time.perf_counter() - began
+    if adopt:
+        console.say(f"wrote {tuning.adopt(spec, progress)}")
+    _report(tuning, progress, wall, json)
+    return 0
+
+
+def _workplace(workers: int | None, cluster: bool, scheduler: str | None, scheduler_file: Path | None) -> dict[str, Any]:
+    from gaitsim.errors import Usage
+
+    if not cluster and (scheduler or scheduler_file):
+        raise Usage("--scheduler and --scheduler-file say where a cluster is; add --cluster.")
+    if cluster and not (scheduler or scheduler_file):
+        raise Usage("--cluster needs --scheduler tcp://host:port or --scheduler-file FILE.")
+    if cluster and workers is not None:
+        raise Usage("--workers starts processes here; leave it out with --cluster.")
+    if workers is not None and workers < 0:
+        raise Usage(f"--workers {workers}: a number of processes, or 0 for this one.")
+    return {"workers": workers, "scheduler": scheduler, "scheduler_file": scheduler_file}
+
+
+def _search(tuning: Tuning, workplace: dict[str, Any]) -> Progress:
+    """Run the search with one line of progress."""
+    from gaitsim.cli.progress import ProgressLine
+
+    line = ProgressLine(tuning.generations)
+    try:
+        return tuning.run(workplace, line.update, console.say)
+    finally:
+        line.close()
+
+
+def _report(tuning: Tuning, progress: Progress, wall: float, json: bool) -> None:
+    best = progress.best
+    assert best is not None
+    if json:
+        console.give_json(
+            {
+                "result": str(tuning.folder),
+                "best_score": best.verdict.score,
+                "evaluations": progress.evaluations,
+                "generations": progress.generation,
+                "failed": progress.failed,
+                "wall_seconds": wall,
+                "stop": progress.stop,
+            }
+        )
+        return
+    rows = [
+        (v.address, console.shown(x), v.unit, f"[{v.low:g}, {v.high:g}]")
+        for v, x in zip(tuning.problem.variables, best.candidate.x, strict=True)
+    ]
+    console.give_table(["tuned (in SI)", "best", "unit", "bounds"], rows)
+    place = best.candidate
+    score = console.shown(best.verdict.score)
+    console.give(
+        f"best score {score} (candidate {place.generation}:{place.index}) after {progress.evaluations} evaluations in "
+        f"{progress.generation} generations, {progress.failed} failed, {wall:.3g} s of wall time"
+    )
+    console.give(f"stopped: {progress.stop}")
+    console.say(f"saved in {tuning.folder}; see it: gaitsim run {tuning.folder}")

@@ -1,0 +1,60 @@
+"""One line of progress: rewritten on a terminal, a plain line a generation elsewhere."""
+
+from __future__ import annotations
+
+import sys
+import time
+from typing import TYPE_CHECKING
+
+from gaitsim.cli import console
+
+if TYPE_CHECKING:
+    from gaitsim.optimization.search import Progress
+
+_EVERY = 0.2  # seconds between updates on a terminal
+_PLAIN_EVERY = 5.0  # seconds between plain lines
+
+
+class ProgressLine:
+    """Where a search stands, how fast it goes and how long it still takes at most."""
+
+    def __init__(self, generations: int) -> None:
+        self._generations = generations
+        self._terminal = sys.stderr.isatty()
+        self._began = self._said = time.monotonic()
+        self._generation = -1
+
+    def update(self, progress: Progress) -> None:
+        now = time.monotonic()
+        every = _EVERY if self._terminal else _PLAIN_EVERY
+        last = progress.generation == self._generations and progress.generation != self._generation
+        if now - self._said < every and not last:
+            return
+        if not self._terminal and progress.generation == self._generation:
+            return
+        self._said, self._generation = now, progress.generation
+        text = self._text(progress, now - self._began)
+        if self._terminal:
+            console.rewrite(text)
+        else:
+            console.say(text)
+
+    def close(self) -> None:
+        if self._terminal and self._generation >= 0:
+            console.say("")
+
+    def _text(self, progress: Progress, seconds: float) -> str:
+        rate = progress.evaluated_now / seconds if seconds > 0 else 0.0
+        done = max(progress.generation, 1)
+        left = (self._generations - progress.generation) * seconds / done if progress.evaluated_now else 0.0
+        score = progress.best.verdict.score if progress.best else None
+        return (
+            f"generation {progress.generation}/{self._generations}  best {console.shown(score)}  "
+            f"{progress.evaluations} evaluations, {progress.failed} failed, {rate:.1f}/s, {_clock(left)} left at most"
+        )
+
+
+def _clock(seconds: float) -> str:
+    minutes, rest = divmod(round(seconds), 60)
+    hours, minutes = divmod(minutes, 60)
+    return f"{hours}:{minutes:02}:{rest:02}" if hours else f"{minutes}:{rest:02}"

@@ -1,0 +1,104 @@
+"""gaitsim results: list, show and verify what was kept."""
+
+from __future__ import annotations
+
+import json as json_text
+from pathlib import Path
+from typing import Annotated, Any
+
+import typer
+
+from gaitsim.cli import console
+from gaitsim.cli.options import RESULTS, Json, Trust
+
+app = typer.Typer(help="List, show and verify results.", no_args_is_help=True, rich_markup_mode=None)
+_FAILED = 4
+Folder = Annotated[Path, typer.Argument(metavar="RESULT", help="A result folder.")]
+
+
+@app.command("list")
+def list_results(
+    folder: Annotated[Path, typer.Argument(metavar="[FOLDER]", help="Where results lie.")] = RESULTS,
+    json: Json = False,
+) -> None:
+    """List results, oldest first.
+
+    Example: gaitsim results list
+    """
+    rows = [_summary(path.parent) for path in sorted(folder.glob("*/manifest.json"))]
+    rows.sort(key=lambda row: str(row["created"]))
+    if json:
+        console.give_json({"results": rows})
+        return
+    columns = ["result", "kind", "status", "best score", "evaluations", "created"]
+    cells = [
+        (r["result"], r["kind"], r["status"], console.shown(r["best_score"]), str(r["evaluations"] or ""), r["created"])
+        for r in rows
+    ]
+    console.give_table(columns, cells)
+
+
+@app.command("show")
+def show_result(folder: Folder, json: Json = False) -> None:
+    """Show one result: origin, search, best values.
+
+    Example: gaitsim results show results/2026-11-22-hopping-3f9c
+    """
+    from gaitsim.results.manifest import read_manifest
+
+    manifest = read_manifest(folder)
+    if json:
+        console.give_json({"result": str(folder), **manifest})
+        return
+    for key in ("name", "kind", "status", "mode", "created", "gaitsim", "best_score", "evaluations", "failed", "stop"):
+        if key in manifest:
+            console.give(f"{key:<12} {manifest[key]}")
+    path = folder / "parameters.csv"
+    if path.is_file():
+        head, *rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines()]
+        console.give("")
+        console.give_table(head, rows)
+
+
+@app.command("verify")
+def verify(
+    folder: Folder,
+    everything: Annotated[bool, typer.Option("--all", help="Every candidate, not some and the best.")] = False,
+    trust: Trust = False,
+    json: Json = False,
+) -> int:
+    """Run candidates again from the result's own copies and compare bit for bit.
+
+    Example: gaitsim results verify results/2026-11-22-hopping-3f9c
+    """
+    from gaitsim.results.manifest import changed_versions, read_manifest
+    from gaitsim.results.trust import check_trust
+    from gaitsim.results.verify import verified
+
+    manifest = read_manifest(folder)
+    check_trust(folder, trust)
+    changed = changed_versions(manifest)
+    checks = list(verified(folder, manifest, everything))
+    wrong = [check for check in checks if check.differs]
+    if changed:
+        console.say(f"other versions than when it was made: {', '.join(changed)}")
+    if json:
+        data = [{"candidate": c.name, "differs": list(c.differs)} for c in checks]
+        status = "differs" if wrong else "reproduced"
+        console.give_json({"result": str(folder), "status": status, "checked": data, "versions": changed})
+    else:
+        for check in wrong:
+            console.give(f"{check.name}: {'; '.join(check.differs)}")
+        console.give(f"{folder}: {len(checks) - len(wrong)} of {len(checks)} runs reproduced bit for bit")
+    return _FAILED if wrong else 0
+
+
+def _summary(folder: Path) -> dict[str, Any]:
+    try:
+        manifest = json_text.loads((folder / "manifest.json").read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        manifest = {}
+    keys = ("kind", "status", "best_score", "evaluations", "created")
+    known = {key: manifest.get(key) for key in keys}
+    damaged = {"kind": known["kind"] or "?", "status": known["status"] or "damaged", "created": known["created"] or ""}
+    return {"result": str(folder), **known, **damaged}

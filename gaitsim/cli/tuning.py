@@ -1,0 +1,266 @@
+"""A search and its result folder: begun from a spec, or resumed from its journal."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable
+from contextlib import ExitStack
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from gaitsim.cli.source import Source, open_source, source_of_spec
+from gaitsim.cluster.timings import Timings
+from gaitsim.errors import Fault, InvalidSpec, Mark, SimulationFailed, Usage, did_you_mean
+from gaitsim.model import Model
+from gaitsim.optimization.algorithms import ALGORITHMS
+from gaitsim.optimization.history import GenerationsFile, parameters_csv
+from gaitsim.optimization.journal import Journal, evaluations_in
+from gaitsim.optimization.problem import Problem
+from gaitsim.optimization.search import Budget, Evaluator, Progress, Search
+from gaitsim.results.bundle import Bundle, bundle_model, read_bundle
+from gaitsim.results.lock import Lock
+from gaitsim.results.manifest import BadResult, changed_versions, is_result, new_manifest, read_manifest, write_manifest
+from gaitsim.results.store import create_result, finish
+from gaitsim.results.trust import check_trust
+from gaitsim.results.tuned import problem_of, read_tuned, tuned_path, write_tuned
+from gaitsim.simulation.run import Mode, Simulator
+from gaitsim.spec.schema import OptimizeSection, optimize_section
+
+_SMOKE = {"population": 4, "generations": 2}
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the command line asks for; None where it says nothing."""
+
+    spec: Path
+    algorithm: str | None
+    population: int | None
+    generations: int | None
+    seed: int | None
+    mode: str | None
+    smoke: bool
+    origin: str | None
+    settings: list[str] | None
+    library: list[Path] | None
+    trust: bool
+
+
+@dataclass
+class Tuning:
+    """One search in its folder."""
+
+    folder: Path
+    manifest: dict[str, Any]
+    bundle: Bundle
+    model: Model
+    notices: list[str]
+
+    @property
+    def problem(self) -> Problem:
+        return problem_of(self.model)
+
+    @property
+    def generations(self) -> int:
+        return int(self.manifest["search"]["generations"])
+
+    @property
+    def mode(self) -> Mode:
+        return "normal" if self.manifest["mode"] == "normal" else "rapid"
+
+    def run(
+        self, workplace: dict[str, Any], watch: Callable[[Progress], None], say: Callable[[str], None]
+    ) -> Progress:
+        """Search, and leave the folder complete; or interrupted, with everything in its journal."""
+        search = self.manifest["search"]
+        with ExitStack() as closing:
+            closing.enter_context(Lock(self.folder))
+            write_manifest(self.folder, self.manifest | {"status": "running"})
+            evaluator = self._evaluator(workplace, say)
+            closing.callback(evaluator.close)
+            journal, rows = Journal(self.folder), GenerationsFile(self.folder)
+            timings = Timings(self.folder)
+            for thing in (journal, rows, timings):
+                closing.callback(thing.close)
+            algorithm = ALGORITHMS[search["algorithm"]](self.problem, search["seed"], search["population"])
+            work = Search(self.problem, algorithm, evaluator, journal, rows, timings.add, watch)
+            try:
+                progress = work.run(Budget(self.generations))
+            except BaseException:
+                write_manifest(self.folder, self.manifest | {"status": "interrupted"})
+                raise
+            self._finish(progress)
+        self._refuse_if_all_failed(progress)
+        return progress
+
+    def adopt(self, spec: Path, progress: Progress) -> Path:
+        """Write the best values beside the spec."""
+        if is_result(spec):
+            raise Usage("--adopt writes beside a spec; name the spec, with --resume.")
+        best = progress.best
+        assert best is not None and best.verdict.score is not None
+        values = dict(zip((f.address for f in self.model.free), best.candidate.x, strict=True))
+        units = {f.address: f.unit for f in self.model.free}
+        return write_tuned(spec, str(self.folder), best.verdict.score, values, units)
+
+    def _evaluator(self, workplace: dict[str, Any], say: Callable[[str], None]) -> Evaluator:
+        from gaitsim.cluster.evaluate import Serial
+
+        if workplace["workers"] == 0:
+            return Serial(Simulator(self.model, self.mode))
+        from gaitsim.cluster import connect
+        from gaitsim.cluster.parallel import Parallel
+
+        if workplace["scheduler"] or workplace["scheduler_file"]:
+            client = connect.remote_client(workplace["scheduler"], workplace["scheduler_file"], say)
+        else:
+            client = connect.local_client(workplace["workers"] or connect.cores())
+        return Parallel(client, self.bundle, self.mode)
+
+    def _finish(self, progress: Progress) -> None:
+        best = progress.best.candidate.x if progress.best and not progress.best.failed else None
+        evaluations = evaluations_in(self.folder)
+        (self.folder / "parameters.csv").write_text(parameters_csv(self.problem, best, evaluations), encoding="utf-8")
+        score = progress.best.verdict.score if progress.best else None
+        self.manifest = self.manifest | {
+            "status": "complete",
+            "stop": progress.stop,
+            "best_score": score,
+            "evaluations": progress.evaluations,
+            "failed": progress.failed,
+        }
+        headline = [
+            f"best score {score}",
+            f"{progress.evaluations} evaluations in {progress.generation} generations, {progress.failed} failed",
+            f"stopped: {progress.stop}",
+        ]
+        finish(self.folder, self.manifest, headline)
+
+    def _refuse_if_all_failed(self, progress: Progress) -> None:
+        if progress.best is not None and not progress.best.failed:
+            return
+        reasons = Counter(e.verdict.reason or "there was no score" for e in evaluations_in(self.folder))
+        reason, count = reasons.most_common(1)[0]
+        rule = f"every one of {progress.evaluations} candidates failed; {count} because {reason}"
+        move = f"look at one: gaitsim run {self.folder} --candidate 0:0"
+        raise SimulationFailed(f"{self.folder}: {rule}; {move}")
+
+
+def begun(request: Request, root: Path) -> Tuning:
+    """A new search in a new result folder."""
+    if is_result(request.spec):
+        move = f"gaitsim optimize {request.spec} --resume, or SPEC --from {request.spec}"
+        raise Usage(f"{request.spec} is a result; to continue or to start from it: {move}")
+    source = source_of_spec(request.spec, request.settings, request.library, tuned=False)
+    source, notices = _started(source, request)
+    model = source.model()
+    if not model.free:
+        rule = "nothing is tuned in this spec"
+        move = "give a value bounds, such as gain: {value: 1, tune: [0, 5]}"
+        raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.spec))))
+    if model.objective is None:
+        move = "add one, such as objective: {use: objective/maximize, value: {from: a metric}}"
+        raise InvalidSpec(Fault(f"this spec has no objective; {move}.", Mark(str(request.spec))))
+    search = _search_of(source, request)
+    simulator = Simulator(model, "rapid")
+    bundle = source.bundle()
+    mode = request.mode or "rapid"
+    manifest = new_manifest("optimize", bundle, mode, spec=str(request.spec), search=search, notices=notices)
+    folder = create_result(root, bundle, model, simulator.xml, manifest, {})
+    return Tuning(folder, manifest, bundle, bundle_model(folder, bundle.name), [*model.notices, *notices])
+
+
+def resumed(request: Request, root: Path) -> Tuning:
+    """A search that was begun before: the folder named, or the newest one of the spec.
+
+    Errors: BadResult, InvalidSpec if the spec or the versions have changed.
+    """
+    folder = request.spec if is_result(request.spec) else _newest(request.spec, root)
+    manifest = read_manifest(folder)
+    if manifest["kind"] != "optimize":
+        raise BadResult(f"{folder}: this is the result of a run; only a search can be resumed.")
+    changed = changed_versions(manifest)
+    if changed:
+        rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
+        raise BadResult(f"{folder}: {rule}; install those, or start a new search with --from {folder}.")
+    check_trust(folder, request.trust)
+    bundle = read_bundle(folder, str(manifest["name"]))
+    if not is_result(request.spec):
+        _check_same_spec(request, folder, bundle)
+    search = dict(manifest["search"])
+    for name in ("algorithm", "population", "seed"):
+        asked = getattr(request, name)
+        if asked is not None and asked != search[name]:
+            move = "leave it out, or start a new search"
+            raise Usage(f"--{name} {asked}: this search was begun with {search[name]}; {move}.")
+    if request.mode is not None and request.mode != manifest["mode"]:
+        raise Usage(f"--mode {request.mode}: this search was begun in {manifest['mode']} mode; leave it out.")
+    search["generations"] = request.generations or search["generations"]
+    return Tuning(folder, manifest | {"search": search}, bundle, bundle_model(folder, bundle.name), [f"resuming {folder}"])
+
+
+def _search_of(source: Source, request: Request) -> dict[str, Any]:
+    """Algorithm, population, generations and seed: the command line over the spec over defaults."""
+    section = optimize_section(source.document)
+    asked = {n: getattr(request, n) for n in ("algorithm", "population", "generations", "seed")}
+    smoke = _SMOKE if request.smoke else {}
+    found = section.model_dump() | smoke | {name: value for name, value in asked.items() if value is not None}
+    if found["algorithm"] not in ALGORITHMS:
+        hint = did_you_mean(found["algorithm"], ALGORITHMS)
+        raise Usage(f"--algorithm {found['algorithm']}: there is no such algorithm. {hint}")
+    for name, least in (("population", 2), ("generations", 1), ("seed", 0)):
+        if found[name] is not None and found[name] < least:
+            raise Usage(f"--{name} {found[name]}: this is at least {least}.")
+    OptimizeSection.model_validate(found)
+    return found
+
+
+def _started(source: Source, request: Request) -> tuple[Source, list[str]]:
+    """The source started where `--from` says, and what matched."""
+    if request.origin is None:
+        return source, []
+    if request.origin == "tuned":
+        path = tuned_path(request.spec)
+        if not path.is_file():
+            raise Usage(f"--from tuned: there is no {path}; make it with optimize --adopt.")
+        where, values = str(path), read_tuned(path)[1]
+    else:
+        where = request.origin
+        values = dict(open_source(Path(where), None, None, trusted=request.trust).starts)
+    addresses = [f.address for f in source.model().free]
+    matched = [a for a in addresses if a in values]
+    if not matched:
+        known = ", ".join(values) or "nothing"
+        raise Usage(f"--from {request.origin}: none of its values ({known}) is tuned here.")
+    rest = [a for a in addresses if a not in values]
+    notice = f"start from {where}: {', '.join(matched)}" + (f"; not found there: {', '.join(rest)}" if rest else "")
+    return replace(source, starts={a: values[a] for a in matched}), [notice]
+
+
+def _newest(spec: Path, root: Path) -> Path:
+    """The newest search of a spec."""
+    found = []
+    for path in root.glob(f"*-{spec.stem}-*/manifest.json"):
+        try:
+            manifest = read_manifest(path.parent)
+        except BadResult:
+            continue
+        if manifest["kind"] == "optimize" and manifest["name"] == spec.stem:
+            found.append((str(manifest["created"]), path.stat().st_mtime, path.parent))
+    if not found:
+        raise BadResult(f"{root}: there is no search of {spec} to resume; start one without --resume.")
+    return max(found)[2]
+
+
+def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
+    """A search goes on only with the spec it began with."""
+    source = source_of_spec(request.spec, request.settings, request.library, tuned=False)
+    source.model()
+    now = source.bundle().files
+    before = {path: text for path, text in bundle.files.items() if path != "start.json"}
+    changed = sorted(path for path in {*now, *before} if now.get(path) != before.get(path))
+    if changed:
+        rule = f"what it was begun with has changed since: {', '.join(changed)}"
+        move = f"continue the old one: gaitsim optimize {folder} --resume; or start a new search with --from {folder}"
+        raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.spec))))

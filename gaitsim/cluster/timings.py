@@ -1,0 +1,25 @@
+"""timings.csv: how long each evaluation took and where; apart from the journal, which is the same everywhere."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from gaitsim.optimization.evaluation import Candidate
+
+
+class Timings:
+    """Appends a line for each evaluation made in this session."""
+
+    def __init__(self, folder: Path) -> None:
+        path = folder / "timings.csv"
+        new = not path.is_file()
+        self._stream = path.open("a", encoding="utf-8")
+        if new:
+            self._stream.write("generation,index,seconds,host\n")
+
+    def add(self, candidate: Candidate, seconds: float, where: str) -> None:
+        self._stream.write(f"{candidate.generation},{candidate.index},{seconds:.6f},{where}\n")
+        self._stream.flush()
+
+    def close(self) -> None:
+        self._stream.close()

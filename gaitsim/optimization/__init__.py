@@ -1,0 +1,1 @@
+"""Search over vectors and scores; nothing here knows what is being tuned."""

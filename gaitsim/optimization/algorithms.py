@@ -1,0 +1,81 @@
+"""Search algorithms by name, each from a library, behind ask and tell."""
+
+from __future__ import annotations
+
+import math
+import warnings
+from collections.abc import Callable, Sequence
+from typing import Any, Protocol
+
+import numpy as np
+
+from gaitsim.optimization.problem import Problem, Vector
+
+
+class Algorithm(Protocol):
+    """Asks for vectors (divided by spreads), is told their costs, and says in words when it stops."""
+
+    def ask(self) -> list[Vector]: ...
+
+    def tell(self, vectors: Sequence[Vector], costs: Sequence[float]) -> None: ...
+
+    def stop(self) -> str | None: ...
+
+    def distribution(self) -> tuple[Vector, Vector] | None:
+        """Mean and standard deviation of where it searches, if it has such a thing."""
+
+
+_REASONS = {
+    "tolfun": "the costs of the last generations hardly differ",
+    "tolfunhist": "the best costs of the last generations hardly differ",
+    "tolflatfitness": "all candidates have the same cost",
+    "tolx": "the steps became too small to matter",
+    "tolfacupx": "the steps grew without end; start with a larger spread",
+    "tolupsigma": "the steps grew without end",
+    "tolstagnation": "the median cost has stagnated",
+    "conditioncov": "the covariance became ill-conditioned",
+    "noeffectaxis": "steps along an axis have no effect any more",
+    "noeffectcoord": "steps in a coordinate have no effect any more",
+}
+
+
+class CmaEs:
+    """CMA-ES by pycma, drawing from a stream of its own."""
+
+    def __init__(self, problem: Problem, seed: int, population: int | None) -> None:
+        import cma
+
+        stream = np.random.default_rng([seed, 0])
+        low, high = problem.bounds
+        options: dict[str, Any] = {
+            "bounds": [problem.scaled(list(low)), problem.scaled(list(high))],
+            "randn": lambda *shape: stream.standard_normal(shape),
+            "seed": math.nan,
+            "verbose": -9,
+            "verb_log": 0,
+            "verb_disp": 0,
+            "signals_filename": None,
+        }
+        if population is not None:
+            options["popsize"] = population
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            self._strategy = cma.CMAEvolutionStrategy(problem.scaled(problem.start), 1.0, options)
+
+    def ask(self) -> list[Vector]:
+        asked: list[Vector] = self._strategy.ask()
+        return asked
+
+    def tell(self, vectors: Sequence[Vector], costs: Sequence[float]) -> None:
+        self._strategy.tell(list(vectors), list(costs))
+
+    def stop(self) -> str | None:
+        found = self._strategy.stop()
+        reasons = [_REASONS.get(name, name) for name in found]
+        return "; ".join(reasons) or None
+
+    def distribution(self) -> tuple[Vector, Vector] | None:
+        return np.asarray(self._strategy.result.xfavorite), np.asarray(self._strategy.result.stds)
+
+
+ALGORITHMS: dict[str, Callable[[Problem, int, int | None], Algorithm]] = {"cma": CmaEs}

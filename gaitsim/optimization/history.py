@@ -1,0 +1,93 @@
+"""What can be read off a search: generations.csv and parameters.csv, written anew from the journal's numbers."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import statistics
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import IO
+
+import numpy as np
+
+from gaitsim.optimization.evaluation import Evaluation
+from gaitsim.optimization.problem import Problem
+
+_COLUMNS = ("generation", "evaluations", "best", "generation_best", "median", "spread", "failed")
+
+
+@dataclass(frozen=True)
+class Generation:
+    """The scores of one generation; numbers over those that have a score."""
+
+    generation: int
+    evaluations: int
+    best: float
+    generation_best: float
+    median: float
+    spread: float
+    failed: int
+
+    def row(self) -> list[str]:
+        return [
+            str(self.generation),
+            str(self.evaluations),
+            *(_text(v) for v in (self.best, self.generation_best, self.median, self.spread)),
+            str(self.failed),
+        ]
+
+
+def generation_of(number: int, so_far: int, best: float, evaluations: Sequence[Evaluation]) -> Generation:
+    """The summary of a generation; `best` is the lowest score up to and with it."""
+    scores = [e.verdict.score for e in evaluations if e.verdict.score is not None]
+    failed = len(evaluations) - len(scores)
+    if not scores:
+        return Generation(number, so_far, best, math.inf, math.inf, math.nan, failed)
+    spread = statistics.pstdev(scores)
+    return Generation(number, so_far, best, min(scores), statistics.median(scores), spread, failed)
+
+
+class GenerationsFile:
+    """generations.csv: one row a generation, flushed as it comes."""
+
+    def __init__(self, folder: Path) -> None:
+        self._stream: IO[str] = (folder / "generations.csv").open("w", encoding="utf-8", newline="")
+        self._stream.write(_row(_COLUMNS))
+
+    def add(self, generation: Generation) -> None:
+        self._stream.write(_row(generation.row()))
+        self._stream.flush()
+
+    def close(self) -> None:
+        self._stream.close()
+
+
+def parameters_csv(
+    problem: Problem,
+    best: Sequence[float] | None,
+    evaluations: Sequence[Evaluation],
+) -> str:
+    """Bounds, start, best, and where the better half of the last generation lies."""
+    rows = [_row(("address", "unit", "low", "high", "start", "spread", "best", "mean", "std"))]
+    last = max((e.candidate.generation for e in evaluations), default=0)
+    scored = sorted((e for e in evaluations if e.candidate.generation == last and not e.failed), key=lambda e: e.cost)
+    half = np.array([e.candidate.x for e in scored[: max(1, len(scored) // 2)]])
+    for i, v in enumerate(problem.variables):
+        found = math.nan if best is None else best[i]
+        mean, std = (float(half[:, i].mean()), float(half[:, i].std())) if half.size else (math.nan, math.nan)
+        numbers = (v.low, v.high, v.start, v.spread, found, mean, std)
+        rows.append(_row((v.address, v.unit, *(_text(n) for n in numbers))))
+    return "".join(rows)
+
+
+def _text(number: float) -> str:
+    return repr(float(number)) if math.isfinite(number) else ""
+
+
+def _row(cells: Sequence[str]) -> str:
+    text = io.StringIO()
+    csv.writer(text, lineterminator="\n").writerow(cells)
+    return text.getvalue()

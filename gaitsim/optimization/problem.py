@@ -1,0 +1,59 @@
+"""What is searched: named numbers with bounds, a start and a spread."""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Variable:
+    """One tuned number, in SI."""
+
+    address: str
+    unit: str
+    low: float
+    high: float
+    start: float
+    spread: float
+
+
+@dataclass(frozen=True)
+class Problem:
+    """Vectors in SI, and the same divided by their spreads, in which algorithms move."""
+
+    variables: tuple[Variable, ...]
+
+    @property
+    def start(self) -> list[float]:
+        return [variable.start for variable in self.variables]
+
+    # Algorithms work on values divided by their spread: a force and an angle then move at one pace.
+    def scaled(self, values: Sequence[float]) -> Vector:
+        return np.asarray(values, dtype=np.float64) / self._spreads
+
+    def values(self, scaled: Vector) -> list[float]:
+        """The values in SI, within their bounds to the last bit."""
+        low, high = self.bounds
+        return [float(v) for v in np.clip(scaled * self._spreads, low, high)]
+
+    @property
+    def bounds(self) -> tuple[Vector, Vector]:
+        low = np.array([variable.low for variable in self.variables])
+        high = np.array([variable.high for variable in self.variables])
+        return low, high
+
+    @property
+    def _spreads(self) -> Vector:
+        return np.array([variable.spread for variable in self.variables])
+
+
+def hash_of(values: Sequence[float]) -> str:
+    """A short digest of a vector's bits, to notice when a replay asks for something else."""
+    return hashlib.sha256(np.asarray(values, dtype="<f8").tobytes()).hexdigest()[:16]

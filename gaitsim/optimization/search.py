@@ -1,0 +1,110 @@
+"""The search itself: ask, evaluate what the journal does not know, tell. Resuming is replaying."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from gaitsim.optimization.algorithms import Algorithm
+from gaitsim.optimization.evaluation import Candidate, Evaluation
+from gaitsim.optimization.history import Generation, GenerationsFile, generation_of
+from gaitsim.optimization.journal import Journal
+from gaitsim.optimization.problem import Problem
+
+
+class Evaluator(Protocol):
+    """Evaluates candidates, in any order, and says how long each took and where."""
+
+    def __call__(self, candidates: Sequence[Candidate]) -> Iterator[tuple[Evaluation, float, str]]: ...
+
+    def close(self) -> None: ...
+
+
+Watcher = Callable[["Progress"], None]
+
+
+@dataclass(frozen=True)
+class Budget:
+    """How many generations at most."""
+
+    generations: int
+
+
+@dataclass
+class Progress:
+    """Where a search stands."""
+
+    generation: int = 0
+    evaluations: int = 0
+    evaluated_now: int = 0
+    failed: int = 0
+    best: Evaluation | None = None
+    stop: str = ""
+    generations: list[Generation] = field(default_factory=list)
+
+
+class Search:
+    """One search in one result folder."""
+
+    def __init__(
+        self,
+        problem: Problem,
+        algorithm: Algorithm,
+        evaluator: Evaluator,
+        journal: Journal,
+        generations: GenerationsFile,
+        took: Callable[[Candidate, float, str], None],
+        watch: Watcher,
+    ) -> None:
+        self.problem, self.algorithm, self.evaluator = problem, algorithm, evaluator
+        self.journal, self.file, self.took, self.watch = journal, generations, took, watch
+        self.progress = Progress()
+
+    def run(self, budget: Budget) -> Progress:
+        """Search until the budget is spent or the algorithm stops.
+
+        Errors: DamagedJournal; what the evaluator raises. Everything that arrived is in the journal.
+        """
+        progress = self.progress
+        self._evaluated(0, [tuple(self.problem.start)])
+        while not progress.stop:
+            if progress.generation >= budget.generations:
+                progress.stop = f"{budget.generations} generations done"
+                break
+            vectors = self.algorithm.ask()
+            values = [tuple(self.problem.values(vector)) for vector in vectors]
+            evaluations = self._evaluated(progress.generation + 1, values)
+            self.algorithm.tell(vectors, [e.cost for e in evaluations])
+            progress.stop = self.algorithm.stop() or ""
+        return progress
+
+    def _evaluated(self, generation: int, values: Iterable[tuple[float, ...]]) -> list[Evaluation]:
+        """All evaluations of one generation, in order: from the journal, or made now."""
+        candidates = [Candidate(generation, i, x) for i, x in enumerate(values)]
+        found = {c.index: known for c in candidates if (known := self.journal.known(c)) is not None}
+        for evaluation, seconds, where in self.evaluator([c for c in candidates if c.index not in found]):
+            self.journal.arrived(evaluation)
+            self.took(evaluation.candidate, seconds, where)
+            found[evaluation.candidate.index] = evaluation
+            self.progress.evaluated_now += 1
+            self.watch(self.progress)
+        evaluations = [found[c.index] for c in candidates]
+        self.journal.close_generation(generation, evaluations)
+        self._count(generation, evaluations)
+        return evaluations
+
+    def _count(self, generation: int, evaluations: list[Evaluation]) -> None:
+        progress = self.progress
+        progress.generation = generation
+        progress.evaluations += len(evaluations)
+        progress.failed += sum(e.failed for e in evaluations)
+        for evaluation in evaluations:
+            if progress.best is None or evaluation.cost < progress.best.cost:
+                progress.best = evaluation
+        best = progress.best.cost if progress.best else math.inf
+        summary = generation_of(generation, progress.evaluations, best, evaluations)
+        progress.generations.append(summary)
+        self.file.add(summary)
+        self.watch(progress)

@@ -1,0 +1,83 @@
+"""What a model is made of, as files: its spec and a copy of every component. It re-runs anywhere."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping as Map
+from dataclasses import dataclass
+from pathlib import Path
+
+from gaitsim.model import Model
+from gaitsim.parts.find import Library
+from gaitsim.spec.document import Mapping, dump, parse, plain
+from gaitsim.spec.resolve import resolve
+
+SPEC, COMPONENTS, START = "spec.yaml", "components", "start.json"
+
+
+@dataclass(frozen=True)
+class Bundle:
+    """Texts by relative path: spec.yaml and components/kind/name.*."""
+
+    name: str
+    files: dict[str, str]
+
+    @property
+    def digest(self) -> str:
+        """One digest over all names and texts."""
+        whole = hashlib.sha256(self.name.encode())
+        for path, text in sorted(self.files.items()):
+            whole.update(f"\0{path}\0{text}".encode())
+        return whole.hexdigest()
+
+    def write(self, folder: Path) -> None:
+        """Write the files below a folder. Errors: OSError."""
+        for path, text in self.files.items():
+            target = folder / path
+            target.parent.mkdir(parents=True, exist_ok=True)
+            target.write_text(text, encoding="utf-8")
+
+
+def bundled(document: Mapping, name: str, library: Library, starts: Map[str, float]) -> Bundle:
+    """The bundle of a spec that has been resolved with this library; `starts` are tuned values by address."""
+    files = {SPEC: dump(plain(document))}
+    if starts:
+        files[START] = json.dumps(dict(starts), indent=2) + "\n"
+    for reference, component in library.used().items():
+        files[f"{COMPONENTS}/{reference}{component.path.suffix}"] = component.source
+        contract = library.kind_file(component.kind)
+        if contract:
+            files[f"{COMPONENTS}/{component.kind}/kind.yaml"] = contract.read_text(encoding="utf-8")
+    return Bundle(name, files)
+
+
+def read_bundle(folder: Path, name: str) -> Bundle:
+    """The bundle that lies in a result folder. Errors: OSError."""
+    paths = [folder / SPEC, *sorted((folder / COMPONENTS).rglob("*.*"))]
+    texts = {p.relative_to(folder).as_posix(): p.read_text(encoding="utf-8") for p in paths if p.is_file()}
+    if (folder / START).is_file():
+        texts[START] = (folder / START).read_text(encoding="utf-8")
+    return Bundle(name, {path: text for path, text in texts.items() if path.endswith((".py", ".yaml", START))})
+
+
+def bundle_document(folder: Path) -> Mapping:
+    """The spec of a bundle. Errors: OSError, InvalidSpec."""
+    return parse((folder / SPEC).read_text(encoding="utf-8"), str(folder / SPEC))
+
+
+def bundle_library(folder: Path) -> Library:
+    """The components of a bundle, and no others."""
+    return Library((folder / COMPONENTS,))
+
+
+def bundle_starts(folder: Path) -> dict[str, float]:
+    """The tuned values that a bundle starts from. Errors: OSError, ValueError."""
+    path = folder / START
+    return dict(json.loads(path.read_text(encoding="utf-8"))) if path.is_file() else {}
+
+
+def bundle_model(folder: Path, name: str) -> Model:
+    """The model of a bundle. Errors: OSError, InvalidSpec, InvalidComponent."""
+    model = resolve(bundle_document(folder), bundle_library(folder), name)
+    return model.started_at(bundle_starts(folder))

@@ -1,0 +1,85 @@
+"""Does a result still reproduce? Candidates are run again from its own copies and compared bit for bit."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping as Map
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from gaitsim.errors import Fault, Mark
+from gaitsim.optimization.evaluation import Evaluation
+from gaitsim.optimization.journal import evaluations_in
+from gaitsim.results.bundle import bundle_document, bundle_library, bundle_model, bundle_starts
+from gaitsim.results.manifest import BadResult
+from gaitsim.results.store import row_data
+from gaitsim.simulation.run import Mode, Simulator
+from gaitsim.spec.inheritance import override
+from gaitsim.spec.resolve import resolve
+
+_COMPARED = ("status", "score", "metrics", "steps")
+
+
+@dataclass(frozen=True)
+class Check:
+    """One candidate run again: its name and what differs, if anything."""
+
+    name: str
+    differs: tuple[str, ...]
+
+
+def verified(folder: Path, manifest: Map[str, Any], everything: bool) -> Iterator[Check]:
+    """Run candidates of a result again: the best, the start and some between; or all of them.
+
+    Errors: BadResult, DamagedJournal, InvalidSpec.
+    """
+    mode: Mode = "normal" if manifest["mode"] == "normal" else "rapid"
+    if manifest["kind"] == "run":
+        yield from _runs(folder, str(manifest["name"]), mode)
+        return
+    simulator = Simulator(bundle_model(folder, str(manifest["name"])), mode)
+    found = evaluations_in(folder)
+    if not found:
+        raise BadResult(f"{folder}: nothing was evaluated yet, so there is nothing to verify.")
+    for evaluation in found if everything else _sample(found):
+        place = evaluation.candidate
+        now = row_data({}, simulator.run(place.x))
+        before = evaluation.verdict.__dict__
+        yield Check(f"{place.generation}:{place.index}", _differences(before, now))
+
+
+def _runs(folder: Path, name: str, mode: Mode) -> Iterator[Check]:
+    document, library = bundle_document(folder), bundle_library(folder)
+    path = folder / "evaluations.jsonl"
+    try:
+        rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
+    except (OSError, ValueError) as error:
+        raise BadResult(Fault(f"this cannot be read ({error}); restore it from a copy.", Mark(str(path)))) from error
+    for i, row in enumerate(rows):
+        variant = document
+        for address, text in row["settings"].items():
+            variant = override(variant, address, text)
+        model = resolve(variant, library, name).started_at(bundle_starts(folder))
+        now = row_data(row["settings"], Simulator(model, mode).run())
+        yield Check(", ".join(f"{a}={v}" for a, v in row["settings"].items()) or f"run {i}", _differences(row, now))
+
+
+def _differences(before: Map[str, Any], now: Map[str, Any]) -> tuple[str, ...]:
+    found = []
+    for name in _COMPARED:
+        if name == "metrics":
+            both = [*before["metrics"], *(m for m in now["metrics"] if m not in before["metrics"])]
+            pairs = [(m, before["metrics"].get(m), now["metrics"].get(m)) for m in both]
+        else:
+            pairs = [(name, before[name], now[name])]
+        found += [f"{what}: {old!r} -> {new!r}" for what, old, new in pairs if old != new]
+    return tuple(found)
+
+
+def _sample(found: list[Evaluation]) -> list[Evaluation]:
+    """The best, the first, the last, and some evenly between."""
+    count = min(len(found), 10)
+    even = {round(i * (len(found) - 1) / max(1, count - 1)) for i in range(count)}
+    best = min(range(len(found)), key=lambda i: found[i].cost)
+    return [found[i] for i in sorted(even | {best})]
