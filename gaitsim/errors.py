@@ -95,9 +95,10 @@ class Faults:
         self.found: list[Fault] = []
 
     def add(self, message: str, mark: Mark | None = None, address: str = "") -> None:
-        fault = Fault(message, mark, address)
-        if fault not in self.found:
-            self.found.append(fault)
+        """Add a fault; the same words about the same place, for another address, are one mistake."""
+        known = (fault for fault in self.found if fault.mark == mark and fault.message == message)
+        if not any(fault.address == address or (mark and mark.line) for fault in known):
+            self.found.append(Fault(message, mark, address))
 
     def raise_if_any(self, kind: type[GaitsimError] = InvalidSpec) -> None:
         if self.found:
@@ -109,10 +110,21 @@ def _place(fault: Fault) -> tuple[str, int, int]:
     return (mark.file, mark.line, mark.column)
 
 
+def nearest(word: str, known: Iterable[str]) -> str | None:
+    """The known word that was probably meant."""
+    near = difflib.get_close_matches(word, sorted(known), n=1, cutoff=0.6)
+    return near[0] if near else None
+
+
+def with_article(noun: str) -> str:
+    """a muscle, an activation"""
+    return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
+
+
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """A hint at the nearest known word, or the list of all known ones."""
     words = sorted(known)
-    near = difflib.get_close_matches(word, words, n=1, cutoff=0.6)
+    near = nearest(word, words)
     if near:
-        return f"Did you mean {near[0]}?"
+        return f"Did you mean {near}?"
     return f"Known here: {', '.join(words)}." if words else "Nothing is known here."

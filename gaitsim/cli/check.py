@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, read_model
+from gaitsim.cli.options import Json, Libraries, Set, Spec, open_library, read_document
 
 
 def check(spec: Spec, settings: Set = None, library: Libraries = None, json: Json = False) -> None:
@@ -12,9 +12,14 @@ def check(spec: Spec, settings: Set = None, library: Libraries = None, json: Jso
     Example: gaitsim check specs/hopping_geyer2003.yaml
     """
     from gaitsim.simulation.run import Simulator
+    from gaitsim.spec.resolve import resolve
+    from gaitsim.spec.study import variants
 
-    model = read_model(spec, settings, library)
-    Simulator(model)
+    document = read_document(spec, settings)
+    models = [resolve(row.document, open_library(spec, library), spec.stem) for row in variants(document, [])]
+    for each in models:
+        Simulator(each)
+    model = models[0]
     for notice in model.notices:
         console.say(notice)
     counts = {

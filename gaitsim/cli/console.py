@@ -54,7 +54,7 @@ def say_error(error: GaitsimError) -> None:
 def error_data(error: GaitsimError) -> dict[str, Any]:
     """An error as data, for --json."""
     return {
-        "status": "invalid" if error.exit_code == 3 else "failed",
+        "status": error.exit_code.name.lower(),
         "errors": [
             {
                 "file": fault.mark.file if fault.mark else None,

@@ -69,7 +69,8 @@ def main(arguments: list[str] | None = None) -> None:
 def _other(error: Exception) -> int:
     """What the command-line library refuses; everything else is a bug of ours."""
     if hasattr(error, "format_message") and hasattr(error, "exit_code"):
-        console.say(f"gaitsim: {error.format_message()}")
+        # Typer passes on the words of pydantic, and this prefix with them.
+        console.say(f"gaitsim: {error.format_message().replace('Value error, ', '')}")
         context = getattr(error, "ctx", None)
         command = context.command_path if context is not None else "gaitsim"
         console.say(f"Try '{command} --help'.")

@@ -11,6 +11,7 @@ import typer
 from gaitsim.cli import console
 from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
 from gaitsim.cli.source import Source, open_source
+from gaitsim.errors import SimulationFailed
 
 if TYPE_CHECKING:
     from gaitsim.model import Model
@@ -58,6 +59,7 @@ def run(
     rows = variants(source.document, vary or [])
     if out is not None and len(rows) > 1:
         raise Usage("--out writes one trajectory; drop --vary or study:, or --set one value.")
+    _check_places(out, no_save)
     models = [source.model(row.document) for row in rows]
     for notice in dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]):
         console.say(notice)
@@ -66,18 +68,30 @@ def run(
         outcomes = [simulator.run(recorded=out is not None)]
     else:
         outcomes = _all(models, mode)
-    folder = None
-    if not no_save:
-        folder = _saved(source, models[0], mode, rows, outcomes)
-    if out is not None:
+    if out is not None and outcomes[0].trajectory is not None:
         from gaitsim.results.store import save_trajectory
 
         save_trajectory(out, outcomes[0])
+    folder = None
+    if not no_save:
+        folder = _saved(source, models[0], mode, rows, outcomes)
     _report(rows, outcomes, models, mode, folder, json)
-    for outcome in outcomes:
+    for row, outcome in zip(rows, outcomes, strict=True):
         if outcome.status == "failed":
-            console.say(f"failed: {outcome.reason}")
+            of_row = ", ".join(f"{address} = {value}" for address, value in row.settings.items())
+            console.say(f"{of_row + ': ' if of_row else ''}failed: {outcome.reason}")
     return _FAILED if all(outcome.status == "failed" for outcome in outcomes) else 0
+
+
+def _check_places(out: Path | None, no_save: bool) -> None:
+    """What will not be written is said before anything is simulated."""
+    from gaitsim.results.store import CannotSave
+
+    if out is not None and out.is_dir():
+        raise CannotSave(f"{out}: this is a folder; name a file in it, such as --out {out / 'trajectory.csv'}.")
+    if not no_save and RESULTS.exists() and not RESULTS.is_dir():
+        rule = "this is a file, and results go into a folder of that name"
+        raise CannotSave(f"{RESULTS}: {rule}; rename the file, or use --no-save.")
 
 
 def _all(models: Sequence[Model], mode: ModeName) -> list[Outcome]:
@@ -115,9 +129,9 @@ def _report(
             table = [{"settings": row.settings, **data} for row, data in zip(rows, tables, strict=True)]
             console.give_json({"status": _overall(outcomes), "rows": table, **tail})
         return
-    if single:
+    if single and outcomes[0].status != "failed":
         _print_one(outcomes[0], models[0])
-    else:
+    elif not single:
         _print_table(rows, outcomes)
     if folder:
         console.say(f"saved in {folder}")
@@ -128,9 +142,11 @@ def _overall(outcomes: Sequence[Outcome]) -> str:
 
 
 def _data(outcome: Outcome) -> dict[str, Any]:
+    failed = {"errors": console.error_data(SimulationFailed(outcome.reason))["errors"]}
     return {
         "status": outcome.status,
         "reason": outcome.reason or None,
+        **(failed if outcome.status == "failed" else {}),
         "score": outcome.score,
         "metrics": dict(outcome.metrics),
         "simulated_seconds": outcome.simulated_seconds,

@@ -54,7 +54,9 @@ def _ordered(model: Model, needs: dict[Port, set[Port]]) -> list[int]:
             for part, outputs in waiting.items()
         }
         whole = [part for part in waiting if ready[part] == waiting[part]]
-        some = whole or [part for part in waiting if ready[part]]
+        # Only for an output that others wait for is a part called before all its inputs are there.
+        wanted = {n for part, outputs in waiting.items() for o in outputs for n in needs[part, o]}
+        some = whole or [p for p in waiting if any((p, o) in wanted for o in ready[p])]
         if not some:
             raise InvalidSpec(_loop(model, needs, waiting))
         part = some[0]
@@ -67,7 +69,8 @@ def _ordered(model: Model, needs: dict[Port, set[Port]]) -> list[int]:
 
 def _loop(model: Model, needs: dict[Port, set[Port]], waiting: dict[int, set[str]]) -> Fault:
     """A fault that prints one loop, sender by sender."""
-    port = next((part, output) for part, outputs in waiting.items() for output in sorted(outputs))
+    ports = [(part, output) for part, outputs in waiting.items() for output in sorted(outputs)]
+    port = next(p for p in ports if any(n[1] in waiting.get(n[0], ()) for n in needs[p]))
     path: list[Port] = []
     while port not in path:
         path.append(port)

@@ -21,12 +21,16 @@ _INTEGRATORS = {
 
 @dataclass(frozen=True)
 class Assembly:
-    """A MuJoCo model and the ties between it and the ports of parts: (part's index, tie)."""
+    """A MuJoCo model and the ties between it and the ports of parts: (part's index, tie).
+
+    Constants are what parts read of the compiled model; they lie in MuJoCo's userdata.
+    """
 
     spec: Any
     model: Any
     reads: tuple[tuple[int, Tie], ...]
     applies: tuple[tuple[int, Tie], ...]
+    constants: tuple[float, ...]
 
     @property
     def xml(self) -> str:
@@ -50,12 +54,14 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
     frames = world_frames(spec)
     reads: list[tuple[int, Tie]] = []
     applies: list[tuple[int, Tie]] = []
+    constants: list[Callable[[Any], float]] = []
 
     def build(part: Part, body: Any = None) -> None:
         mechanics = Mechanics(spec, part, frames, body)
         function_of(part.type.cls, "build")(numbers_of(part, values, frames), mechanics)
         reads.extend((index[part.address], tie) for tie in mechanics.reads)
         applies.extend((index[part.address], tie) for tie in mechanics.applies)
+        constants.extend(mechanics.constants)
 
     order = body_order(model)
     for segment, joint in order:
@@ -70,7 +76,8 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
     for part in model.parts:
         if "build" in part.type.functions and part.address not in done:
             build(part)
-    return Assembly(spec, _compiled(spec), tuple(reads), tuple(applies))
+    compiled = _compiled(spec)
+    return Assembly(spec, compiled, tuple(reads), tuple(applies), tuple(of(compiled) for of in constants))
 
 
 def body_order(model: Model) -> list[tuple[Part, Part]]:

@@ -74,7 +74,12 @@ class Journal:
             os.fsync(file.fileno())
         self._written = generation
         self.close()
-        self._arriving.unlink(missing_ok=True)
+        # After a crash, the generation after this one may have begun to arrive already.
+        later = [e for e in self.evaluations if e.candidate.generation > generation]
+        if later:
+            _replace(self._arriving, later)
+        else:
+            self._arriving.unlink(missing_ok=True)
 
     def close(self) -> None:
         if self._stream is not None:

@@ -19,7 +19,8 @@ from typing import Any
 
 from gaitsim.component import Component, Input, Metric, Output, Parameter, State
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark
-from gaitsim.parts.check import SIGNATURES, class_functions, parse, place, unit_rule
+from gaitsim.parts.check import SIGNATURES, class_functions, parse, place
+from gaitsim.parts.declaration import unit_rule
 from gaitsim.units import Dimension, Unit, UnknownUnit, parse_unit
 
 _DECISIONS = 40  # on one path; only a loop that counts in plain numbers comes near

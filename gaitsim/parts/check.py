@@ -8,9 +8,10 @@ import copy
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from gaitsim.component import Declaration, Input, Metric, Option, Output, Parameter, Points, State
-from gaitsim.errors import Fault, Faults, InvalidComponent, Mark, did_you_mean
-from gaitsim.units import UnknownUnit, known_units, parse_unit
+from gaitsim.component import Declaration, Frame, Input, Metric, Option, Output, Parameter, Points, State
+from gaitsim.errors import Fault, Faults, InvalidComponent, Mark, did_you_mean, nearest
+from gaitsim.parts.build import build_faults, placed
+from gaitsim.parts.declaration import field_faults, unknown_fields
 
 SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "start": ("p", "u", "x"),
@@ -36,14 +37,20 @@ def place(file: str, lines: Sequence[str], line: int, offset: int) -> Mark:
     return Mark(file, line, len(text.encode()[:offset].decode(errors="ignore")) + 1, text)
 
 
-def unit_rule(unit: str) -> str:
-    """What is said of a text that is no unit."""
-    return f'"{unit}" is not a unit; write one made of {", ".join(known_units())}, or "1".'
-
-
 def class_body(tree: ast.Module) -> list[ast.stmt]:
     """What stands in the class of a parsed component file."""
     return next(node.body for node in tree.body if isinstance(node, ast.ClassDef))
+
+
+def declaration_marks(tree: ast.Module, file: str, lines: Sequence[str]) -> dict[str, Mark]:
+    """Where each name of the class is declared; the class itself under the empty name."""
+    found: dict[str, Mark] = {}
+    for node in class_body(tree):
+        if isinstance(node, ast.Assign | ast.AnnAssign):
+            mark = place(file, lines, node.lineno, node.col_offset)
+            found |= dict.fromkeys(_bound(node), mark)
+    top = next(node for node in tree.body if isinstance(node, ast.ClassDef))
+    return {"": place(file, lines, top.lineno, top.col_offset), **found}
 
 
 def class_functions(tree: ast.Module) -> dict[str, ast.FunctionDef]:
@@ -84,6 +91,8 @@ def parse(source: str, file: str) -> ast.Module:
             "a component file holds one class that derives from Component; this has none.",
             Mark(file),
         )
+    for message, wrong in unknown_fields(tree):
+        faults.add(message, place(file, lines, wrong.lineno, wrong.col_offset))
     for inner in ast.walk(tree):
         if isinstance(inner, ast.Import | ast.ImportFrom) and not _may_import(inner):
             mark = place(file, lines, inner.lineno, inner.col_offset)
@@ -112,10 +121,12 @@ def check_names(
     check = _Check(tree, declarations, file, lines)
     check.declared()
     for name, function in check.functions.items():
-        check.signature(name, function)
-        if name in SIGNATURES:
-            check.attributes(name, function)
+        if not check.signature(name, function):
+            continue  # its names mean nothing until its arguments do
+        check.attributes(name, function)
         check.names(function, plain=name == "build")
+        for message, wrong in build_faults(function, declarations) if name == "build" else ():
+            check.add(message, wrong)
     for node in tree.body:
         if isinstance(node, ast.FunctionDef):
             check.names(node, plain=False)
@@ -143,34 +154,22 @@ class _Check:
 
     def declared(self) -> None:
         for name, one in self.known.items():
-            node = self.places.get(name)
-            if isinstance(one, Parameter | Input | Output | State | Metric | Points):
-                try:
-                    parse_unit(one.unit)
-                except UnknownUnit:
-                    self.add(f"{name}: {unit_rule(one.unit)}", node)
-            if isinstance(one, Parameter) and one.bounds is not None:
-                low, high = one.bounds
-                if low > high:
-                    self.add(f"{name}: bounds ({low}, {high}) are reversed.", node)
-                elif one.default is not None and not low <= one.default <= high:
-                    said = f"default {one.default} is outside its bounds ({low}, {high})."
-                    self.add(f"{name}: {said}", node)
-            if isinstance(one, Option) and one.default not in (None, *one.choices):
-                said = did_you_mean(str(one.default), one.choices)
-                self.add(f"{name}: default {one.default} is not one of its choices. {said}", node)
+            for message in field_faults(name, one):
+                self.add(message, self.places.get(name))
 
-    def signature(self, name: str, function: ast.FunctionDef) -> None:
+    def signature(self, name: str, function: ast.FunctionDef) -> bool:
+        """Whether a function has its name and its arguments."""
         if name not in SIGNATURES:
             said = did_you_mean(name, SIGNATURES)
             self.add(f"{name} is not a function of a component. {said}", function)
-            return
+            return False
         if [ast.unparse(d) for d in function.decorator_list] != ["staticmethod"]:
             self.add(f"{name} needs @staticmethod above it, and nothing else.", function)
         wanted = f"({', '.join(SIGNATURES[name])})"
         given = f"({ast.unparse(_without_annotations(function.args))})"
         if given != wanted:
             self.add(f"{name} takes {wanted}; here it has {given}.", function)
+        return given == wanted
 
     def attributes(self, name: str, function: ast.FunctionDef) -> None:
         letters = set(SIGNATURES[name]) & set(_LETTERS) & {a.arg for a in function.args.args}
@@ -226,7 +225,7 @@ class _Check:
         body = [node for statement in function.body for node in ast.walk(statement)]
         for node in body:
             if isinstance(node, ast.Name) and node.id not in allowed | _FORBIDDEN:
-                hint = did_you_mean(node.id, allowed)
+                hint = self.meant(node.id) or did_you_mean(node.id, allowed)
                 if not hint.startswith("Did you mean "):
                     hint = did_you_mean(node.id, own)
                 self.add(f"{node.id} is not defined. {hint}", node)
@@ -236,18 +235,35 @@ class _Check:
                     hint = _hint(node.attr, known, "math")
                     self.add(f"math.{node.attr} is not defined. {hint}", node)
 
+    def meant(self, word: str) -> str:
+        """A hint at a declared name that lacks its letter."""
+        one = self.known.get(word)
+        letter = next((at for at, kind in _LETTERS.items() if isinstance(one, kind)), "")
+        return f"Did you mean {letter}.{word}?" if letter else ""
+
     def never_assigned(self) -> None:
         for kind, letter, name in ((Output, "y", "output"), (Metric, "m", "finish")):
             function = self.functions.get(name)
             names = {n for n, one in self.known.items() if isinstance(one, kind)}
-            if not names or (kind is Output and "build" in self.functions):
+            if kind is Output and "build" in self.functions:
+                read = placed(self.functions["build"], Output, self.known)
+                names -= names if read is None else read
+            if not names:
                 continue
             if function is not None:
                 if _passed_whole(function, letter):
                     continue
-                names -= {node.attr for node in _written(function)}
+                written = {node.attr for node in _written(function)}
+                # A misspelt output has been told of; it is the one that is missing.
+                names -= written | {near for word in written - set(self.known) if (near := nearest(word, names))}
             for missing in sorted(names):
                 self.add(f"{name} never assigns {letter}.{missing}.", self.places.get(missing))
+        if "build" in self.functions:
+            made = placed(self.functions["build"], Frame, self.known)
+            frames = {n for n, one in self.known.items() if isinstance(one, Frame)}
+            for missing in sorted(frames - (frames if made is None else made)):
+                rule = f'build never places {missing}; write mj.frame("{missing}", (x, y, z)).'
+                self.add(rule, self.places.get(missing))
 
 
 def _hint(word: str, names: list[str], prefix: str) -> str:

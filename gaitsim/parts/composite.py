@@ -6,13 +6,23 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gaitsim.component import Parameter
-from gaitsim.errors import Faults, did_you_mean
-from gaitsim.parts.load import digest_of
+from gaitsim.errors import Faults, Mark
+from gaitsim.parts.load import as_lines, digest_of
 from gaitsim.parts.primitive import Primitive
-from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, read
-from gaitsim.spec.quantity import number_with_unit
+from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, parse, text_of
+from gaitsim.spec.quantity import number_with_unit, said, unknown_unit
+from gaitsim.spec.spelling import respelled
+from gaitsim.units import UnknownUnit, parse_unit
 
 _SECTIONS = ("about", "parameters", "attachments", "frames", "inputs", "outputs", "parts")
+_SAMPLES = {
+    "parameters": "{height: {unit: m, default: 1.8 m}}",
+    "attachments": "{parent: What it hangs from.}",
+    "frames": "{proximal: thigh.proximal}",
+    "inputs": "{excitation: soleus.excitation}",
+    "outputs": "{load: foot.load}",
+    "parts": "{thigh: {use: segment/rod, ...}}",
+}
 _FIELDS = ("unit", "default", "doc", "source", "bounds")
 
 
@@ -43,6 +53,11 @@ class Composite:
         """What an entry of a spec may say to this part."""
         return [*self.parameters, *self.inputs, *self.attachments, *self.parts.entries]
 
+    def mark(self, section: str, name: str) -> Mark:
+        """Where a name of a section is written."""
+        inside = self.document.entries.get(section)
+        return inside.keys.get(name, inside.mark) if isinstance(inside, Mapping) else self.document.mark
+
 
 ComponentFile = Primitive | Composite
 
@@ -53,20 +68,19 @@ def load_composite(reference: str, path: Path, shown: str) -> Composite:
     Errors: InvalidSpec with every fault of the file's own grammar.
     """
     faults = Faults()
-    document = read(path, shown)
-    for word, mark in document.keys.items():
-        if word not in _SECTIONS:
-            faults.add(f"{word} is no section of a composite. {did_you_mean(word, _SECTIONS)}", mark)
+    text = text_of(path, shown, "component")
+    document = respelled(parse(text, shown), _SECTIONS, "a composite has no section", faults)
     sections = {name: _mapping(document, name, faults) for name in _SECTIONS if name != "about"}
     if not sections["parts"].entries:
-        faults.add("a composite needs parts: with at least one entry", document.mark)
+        faults.add("a composite has no parts; write parts: and below it at least one.", document.mark)
     parameters, defaults = declared_parameters(sections["parameters"], faults)
     about = document.entries.get("about")
+    source = as_lines(text.removeprefix("\ufeff"))
     composite = Composite(
         reference,
         path,
-        path.read_text(encoding="utf-8-sig"),
-        digest_of(path.read_text(encoding="utf-8-sig")),
+        source,
+        digest_of(source),
         str(about.value) if isinstance(about, Scalar) else "",
         parameters,
         defaults,
@@ -83,16 +97,16 @@ def load_composite(reference: str, path: Path, shown: str) -> Composite:
 
 def declared_parameters(section: Mapping, faults: Faults) -> tuple[dict[str, Parameter], dict[str, Node]]:
     """The parameters of a mask and the nodes of their defaults."""
-    parameters, defaults = {}, {}
+    parameters: dict[str, Parameter] = {}
+    defaults: dict[str, Node] = {}
     for name, node in section.entries.items():
         if not isinstance(node, Mapping):
-            faults.add('a parameter is a mapping, such as {unit: kg, default: 80 kg}', node.mark, name)
+            faults.add("this needs a unit and a default; write such as {unit: kg, default: 80 kg}.", node.mark, name)
+            parameters[name], defaults[name] = Parameter("*", ""), Scalar(0, node.mark)
             continue
-        for word, mark in node.keys.items():
-            if word not in _FIELDS:
-                faults.add(f"{word} is no field of a parameter. {did_you_mean(word, _FIELDS)}", mark, name)
+        node = respelled(node, _FIELDS, "a parameter has no key", faults, name)
         parameters[name] = Parameter(
-            _word(node, "unit") or "1",
+            _unit(node, name, faults),
             _word(node, "doc"),
             bounds=_bounds(node, name, faults),
             source=_word(node, "source"),
@@ -102,17 +116,33 @@ def declared_parameters(section: Mapping, faults: Faults) -> tuple[dict[str, Par
     return parameters, defaults
 
 
+def _unit(node: Mapping, name: str, faults: Faults) -> str:
+    """The unit of a parameter; left open after a fault, so that it is the only one."""
+    unit = _word(node, "unit") or "1"
+    try:
+        return parse_unit(unit).text
+    except UnknownUnit:
+        faults.add(unknown_unit(unit), node.entries["unit"].mark, name)
+        return "*"
+
+
 def _bounds(node: Mapping, name: str, faults: Faults) -> tuple[float, float] | None:
     """Bounds in the parameter's unit."""
     bounds = node.entries.get("bounds")
     if bounds is None:
         return None
     if not isinstance(bounds, Sequence) or len(bounds.items) != 2:
-        faults.add("bounds are two values, such as [0 kg, 200 kg]", bounds.mark, name)
+        faults.add("bounds are two values; write such as bounds: [0 kg, 200 kg].", bounds.mark, name)
         return None
-    unit = _word(node, "unit") or "1"
+    unit = _unit(node, name, faults)
     low, high = (number_with_unit(item, unit, faults, name) for item in bounds.items)
-    return None if low is None or high is None else (low, high)
+    if low is None or high is None:
+        return None
+    if low > high:
+        rule = f"the bounds {said(bounds.items[0])} and {said(bounds.items[1])} are reversed; exchange them."
+        faults.add(rule, bounds.mark, name)
+        return None
+    return low, high
 
 
 def _word(node: Mapping, key: str) -> str:
@@ -125,7 +155,7 @@ def _mapping(document: Mapping, name: str, faults: Faults) -> Mapping:
     if node is None or (isinstance(node, Scalar) and node.value is None):
         return Mapping({}, {}, document.mark)
     if not isinstance(node, Mapping):
-        faults.add(f"{name} is a mapping of names", node.mark)
+        faults.add(f"{said(node)} is no mapping of names; write such as {name}: {_SAMPLES[name]}.", node.mark, name)
         return Mapping({}, {}, document.mark)
     return node
 
@@ -133,7 +163,7 @@ def _mapping(document: Mapping, name: str, faults: Faults) -> Mapping:
 def _text(node: Node, faults: Faults) -> str:
     if isinstance(node, Scalar) and isinstance(node.value, str):
         return node.value
-    faults.add("this needs a text such as thigh.proximal", node.mark)
+    faults.add(f"{said(node)} is no name; write such as thigh.proximal.", node.mark)
     return ""
 
 

@@ -4,35 +4,65 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gaitsim.errors import Fault, Mark
+from gaitsim.errors import Fault, Faults, Mark
+from gaitsim.parts.check import declaration_marks, parse
 from gaitsim.parts.composite import ComponentFile, Composite
 from gaitsim.spec.document import Mapping, Node, plain, read
+from gaitsim.spec.quantity import said, unknown_unit
+from gaitsim.spec.spelling import respelled
+from gaitsim.units import UnknownUnit, parse_unit
 
 _SECTIONS = ("inputs", "outputs", "parameters", "metrics")
 
 
-def kind_faults(component: ComponentFile, contract: Path, file: str) -> list[Fault]:
-    """What a component lacks of its kind's common ports and parameters."""
-    document = read(contract)
+def kind_faults(component: ComponentFile, contract: Path, file: str, named: str = "") -> list[Fault]:
+    """What a component lacks of its kind's common ports and parameters; `named` is how errors name the contract.
+
+    Errors: InvalidSpec if the contract itself breaks a rule.
+    """
+    named = named or str(contract)
     faults = []
-    for section in _SECTIONS:
-        wanted = document.entries.get(section)
-        if not isinstance(wanted, Mapping):
-            continue
+    for section, units in _contract(contract, named).items():
         offered = _offered(component, section)
-        for name, node in wanted.entries.items():
-            unit = _unit(node)
+        for name, unit in units.items():
             has = offered.get(name)
             if has is None:
-                what = section[:-1].replace("_", " ")
-                faults.append(
-                    Fault(f"a {component.kind} has the {what} {name} [{unit}]; declare it ({contract})", Mark(file))
-                )
+                lack = f"this lacks the {section[:-1]} {name} [{unit}]"
+                rule = f"{lack}, which every component of {component.kind}/ has ({named}); declare it."
+                faults.append(Fault(rule, _mark(component, section, "", file)))
             elif has not in (unit, "*") and unit != "*":
-                faults.append(
-                    Fault(f"{name} is in {has}; every {component.kind} has it in {unit} ({contract})", Mark(file))
-                )
+                rule = f"{name} is in [{has}], and every component of {component.kind}/ has it in [{unit}] ({named})"
+                faults.append(Fault(f"{rule}; declare it so.", _mark(component, section, name, file)))
     return faults
+
+
+def _contract(path: Path, named: str) -> dict[str, dict[str, str]]:
+    """Names and units by section."""
+    faults = Faults()
+    document = respelled(read(path, named), ("about", *_SECTIONS), "a kind has no section", faults)
+    found: dict[str, dict[str, str]] = {}
+    for section in _SECTIONS:
+        wanted = document.entries.get(section, Mapping({}, {}, document.mark))
+        if not isinstance(wanted, Mapping):
+            faults.add(f"{said(wanted)} is no mapping of names; write such as {section}: {{force: N}}.", wanted.mark)
+            continue
+        found[section] = {}
+        for name, node in wanted.entries.items():
+            found[section][name] = _unit(node)
+            try:
+                parse_unit(_unit(node))
+            except UnknownUnit as error:
+                faults.add(unknown_unit(str(error)), node.mark, name)
+    faults.raise_if_any()
+    return found
+
+
+def _mark(component: ComponentFile, section: str, name: str, file: str) -> Mark:
+    """Where a component declares a name, or else itself."""
+    if isinstance(component, Composite):
+        return component.mark(section, name)
+    lines = component.source.splitlines()
+    return declaration_marks(parse(component.source, file), file, lines)[name]
 
 
 def _offered(component: ComponentFile, section: str) -> dict[str, str]:

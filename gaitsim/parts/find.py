@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean
+from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean, nearest
 from gaitsim.parts.composite import ComponentFile, load_composite
 from gaitsim.parts.contract import kind_faults
-from gaitsim.parts.load import digest_of, load_primitive
+from gaitsim.parts.load import as_lines, digest_of, load_primitive
+from gaitsim.spec.document import text_of
 
 _LOADERS: dict[str, Callable[[str, Path, str], ComponentFile]] = {
     ".py": load_primitive,
@@ -72,15 +73,15 @@ class Library:
     def _load(self, reference: str) -> ComponentFile:
         files = self._files(reference)
         if not files:
-            raise InvalidSpec(self._unknown(reference))
+            raise InvalidSpec(self.unknown(reference))
         path = files[0]
         twins = [f for f in files if f.parent == path.parent]
         if len(twins) > 1:
             both = " and ".join(shown(f) for f in twins)
-            raise InvalidSpec(Fault(f"{reference} is both {both}; remove one of them"))
+            raise InvalidSpec(Fault(f"{reference} is both {both}; remove one of them."))
         loaded = _LOADERS[path.suffix](reference, path, shown(path))
         contract = self.kind_file(loaded.kind)
-        faults = kind_faults(loaded, contract, shown(path)) if contract else []
+        faults = kind_faults(loaded, contract, shown(path), shown(contract)) if contract else []
         if faults:
             raise InvalidSpec(faults)
         for hidden in files[1:]:
@@ -95,13 +96,26 @@ class Library:
         paths = [folder / kind / f"{name}{suffix}" for folder in self.folders for suffix in _LOADERS]
         return [path for path in paths if path.is_file()]
 
-    def _unknown(self, reference: str) -> Fault:
-        hint = did_you_mean(reference, self.references())
-        return Fault(f"there is no component {reference}. {hint}")
+    def kinds(self) -> set[str]:
+        """Every kind that has a component."""
+        return {reference.split("/")[0] for reference in self.references()}
+
+    def unknown(self, reference: str) -> str:
+        """What is said of a reference that names no component."""
+        kind, slash, name = reference.partition("/")
+        if not slash:
+            twins = [known for known in self.references() if known.endswith(f"/{reference}")]
+            hint = f"Did you mean {twins[0]}?" if twins else f"Kinds are {', '.join(sorted(self.kinds()))}."
+            return f"{reference} names no kind; write use: kind/name. {hint}"
+        if kind not in self.kinds():
+            return f"there is no kind {kind}. {did_you_mean(kind, self.kinds())}"
+        near = nearest(name, [known.partition("/")[2] for known in self.references(kind)])
+        hint = f"Did you mean {kind}/{near}?" if near else did_you_mean("", self.references(kind))
+        return f"there is no component {reference}. {hint}"
 
 
 def _digest(path: Path) -> str:
-    return digest_of(path.read_text(encoding="utf-8"))
+    return digest_of(as_lines(text_of(path, shown(path), "component")))
 
 
 def shown(path: Path) -> str:

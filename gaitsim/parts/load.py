@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 from gaitsim.component import Component, Input, Output, Part
 from gaitsim.errors import Fault, InvalidComponent, Mark, did_you_mean
 from gaitsim.parts.audit import audit
-from gaitsim.parts.check import check_names, parse
+from gaitsim.parts.check import check_names, declaration_marks, parse
 from gaitsim.parts.dependency import output_dependencies
 from gaitsim.parts.ieee import ieee_math
 from gaitsim.parts.primitive import Primitive
+from gaitsim.spec.document import text_of
 
 FUNCTIONS = ("start", "output", "update", "finish", "build")
 
@@ -24,16 +26,21 @@ def digest_of(text: str) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
+def as_lines(text: str) -> str:
+    """A text with every line ended by a newline, as Python reads files."""
+    return io.StringIO(text, newline=None).read()
+
+
 def load_primitive(reference: str, path: Path, shown: str) -> Primitive:
     """Load a component file; `shown` is how errors name it.
 
     Errors: InvalidComponent with every fault of the file.
     """
-    source = path.read_text(encoding="utf-8")
+    source = as_lines(text_of(path, shown, "component"))
     tree = parse(source, shown)
     cls = component_class(execute(source, shown, ieee_math()))
     faults = check_names(tree, cls.declarations, shown, source.splitlines())
-    faults += _part_faults(cls, shown)
+    faults += _part_faults(cls, declaration_marks(tree, shown, source.splitlines()))
     if not faults:
         faults = list(audit(source, shown).faults)
     if faults:
@@ -57,7 +64,7 @@ def execute(source: str, file: str, mathematics: Any) -> dict[str, Any]:
         exec(compile(source, file, "exec"), namespace)
     except Exception as error:
         raise InvalidComponent(
-            Fault(f"{type(error).__name__}: {error}", _mark_of(error, source, file))
+            Fault(f"Python raises {type(error).__name__}: {error}; mend this line.", _mark_of(error, source, file))
         ) from error
     for name, value in list(namespace.items()):
         if value is math:
@@ -94,7 +101,7 @@ def _mark_of(error: Exception, source: str, file: str) -> Mark:
     return Mark(file, line, len(text) - len(text.lstrip()) + 1 if text else 0, text)
 
 
-def _part_faults(cls: type[Component], file: str) -> list[Fault]:
+def _part_faults(cls: type[Component], marks: Mapping[str, Mark]) -> list[Fault]:
     """Wiring of inner parts that names ports this component does not have."""
     inputs = [name for name, d in cls.declarations.items() if isinstance(d, Input)]
     outputs = [name for name, d in cls.declarations.items() if isinstance(d, Output)]
@@ -105,5 +112,5 @@ def _part_faults(cls: type[Component], file: str) -> list[Fault]:
             wrong += [mine for _, mine in part.sends if mine not in inputs + outputs]
             for word in wrong:
                 hint = did_you_mean(word, inputs + outputs)
-                faults.append(Fault(f"{name} is wired to {word}, which is not declared. {hint}", Mark(file)))
+                faults.append(Fault(f"{name} is wired to {word}, which is not declared. {hint}", marks[name]))
     return faults

@@ -14,6 +14,7 @@ from gaitsim.compiler.mjcf import Assembly, assemble, tie_place
 from gaitsim.compiler.program import Program
 from gaitsim.errors import Fault, InvalidSpec
 from gaitsim.simulation.failure import of_mechanics
+from gaitsim.simulation.projection import close_loops
 
 
 @dataclass
@@ -45,7 +46,10 @@ class Body:
         return tuple(found)
 
     def pose(self, values: Sequence[float]) -> None:
-        """Build if needed, reset all of MuJoCo's state, and set the initial coordinates."""
+        """Build if needed, reset all of MuJoCo's state, set the initial coordinates and close loops.
+
+        Errors: SimulationFailed if no pose has these coordinates and closed loops.
+        """
         key = tuple(values[i] for i in self._mechanical)
         if self._assembly is None or key != self._built_for:
             self._assembly = assemble(self.program.model, values)
@@ -54,10 +58,14 @@ class Body:
         mujoco.mj_resetData(self.model, self.data)
         # MuJoCo prints and logs a warning the first time only; the loops watch for themselves.
         self.data.warning.number[:] = 1
+        self.data.userdata[:] = self.assembly.constants
+        given: dict[str, list[int]] = {"qpos": [], "qvel": []}
         for address, number in self.program.model.initial.items():
             if address in self._coordinates:
                 array, place = self._coordinates[address]
                 getattr(self.data, array)[place] = values[number]
+                given[array].append(place)
+        close_loops(self.model, self.data, given["qpos"], given["qvel"])
         mujoco.mj_forward(self.model, self.data)
 
     @cached_property
@@ -82,6 +90,12 @@ class Body:
                 mark = self.program.model.numbers[number].mark
                 rule = f"{address} is computed, so it has no initial value; set a joint's coordinate or a state."
                 raise InvalidSpec(Fault(rule, mark, "initial"))
+
+    @cached_property
+    def appliers(self) -> tuple[int, ...]:
+        """Parts of which an input goes into MuJoCo; it must be of this instant then."""
+        parts = self.program.model.parts
+        return tuple(sorted({i for i, tie in self.assembly.applies if tie.port in parts[i].type.inputs}))
 
     def initial_states(self, values: Sequence[float]) -> dict[int, float]:
         """Initial values of states: place in the table -> value."""

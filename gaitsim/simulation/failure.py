@@ -27,8 +27,7 @@ def of_component(
             function_of(program.model.parts[part].type.cls, stage)(*arguments[stage])
     except Exception as error:
         return of_exception(program, part, stage, step, error)
-    first = views(program, part, p, u, x, y)
-    return of_values(program, part, stage, step, first[3] if stage == "output" else first[2])
+    return of_values(program, part, stage, step, u, x, y)
 
 
 def of_exception(program: Program, part: int, stage: str, step: int, error: Exception) -> str:
@@ -43,8 +42,13 @@ def of_exception(program: Program, part: int, stage: str, step: int, error: Exce
     return f"{_who(program, part)} raised in {stage} at {_when(program, step)} ({place}): {said}"
 
 
-def of_values(program: Program, part: int, stage: str, step: int, fields: View) -> str:
-    """Which outputs or states are no longer finite."""
+def of_values(program: Program, part: int, stage: str, step: int, u: Floats, x: Floats, y: Floats) -> str:
+    """Which outputs or states are no longer finite, told of the part where that began."""
+    origin = _origin(program, _read_slots(program, part, stage, y), u, y)
+    if origin is not None:
+        part, stage = origin, "output"
+    _, _, states, outputs = views(program, part, u, u, x, y)
+    fields: View = outputs if stage == "output" else states
     names = program.model.parts[part].type
     owned = names.outputs if stage == "output" else names.states
     wrong = [
@@ -53,6 +57,32 @@ def of_values(program: Program, part: int, stage: str, step: int, fields: View) 
         if not np.all(np.isfinite(getattr(fields, name)))
     ]
     return f"{_who(program, part)} gives no finite number in {stage} at {_when(program, step)}: {', '.join(wrong)}"
+
+
+def _read_slots(program: Program, part: int, stage: str, y: Floats) -> list[int]:
+    """The inputs that what is not finite may come from."""
+    kind = program.model.parts[part].type
+    wrong = [name for name in kind.outputs if not np.isfinite(y[program.outputs.place(part, name)])]
+    needed = {name for output in wrong for name in kind.dependencies[output]}
+    read = [name for name in kind.inputs if stage != "output" or name in needed]
+    return [program.inputs.place(part, name) for name in read]
+
+
+def _origin(program: Program, slots: list[int], u: Floats, y: Floats) -> int | None:
+    """The part behind these inputs whose output is not finite although all that it needs is."""
+    for source, line in (sender for slot in slots for sender in program.senders[slot]):
+        if line >= 0 or np.isfinite(y[source]):
+            continue
+        part = program.part_of_output(source)
+        kind, fields = program.model.parts[part].type, program.outputs.fields[part]
+        name = next(name for name in kind.outputs if program.outputs.offsets[part] + fields[name] == source)
+        needed = [program.inputs.place(part, n) for n in kind.dependencies[name]]
+        if np.all(np.isfinite(u[needed])):
+            return part
+        found = _origin(program, needed, u, y)
+        if found is not None:
+            return found
+    return None
 
 
 def of_mechanics(program: Program, wrong: list[str], step: int) -> str:

@@ -29,6 +29,9 @@ _step1 = types.ExternalFunction("mj_step1", types.void(types.intp, types.intp))
 _step2 = types.ExternalFunction("mj_step2", types.void(types.intp, types.intp))
 
 
+Addresses = tuple[int, int, int, int]  # of the tables p, u, x, y
+
+
 class Tables(NamedTuple):
     """Who is called in which order and reads what; see Program. A part's fields are at[i]:at[i+1]."""
 
@@ -50,6 +53,7 @@ class Tables(NamedTuple):
     line_rest: Floats
     line_initial: Floats
     reads: Integers  # (address in MuJoCo's data, output)
+    appliers: Integers  # parts whose inputs go into MuJoCo
     writes: Integers  # (address in MuJoCo's data, 0 input or 1 output, its place)
     signs: Floats
     stops: Integers
@@ -123,25 +127,24 @@ def _finite(table: Floats, begin: int, end: int) -> bool:
 
 
 @njit(cache=True)  # type: ignore[untyped-decorator]
-def _run_stage(
-    stage: int, part: int, t: Tables, p: Floats, u: Floats, x: Floats, y: Floats, dt: float
-) -> int:
+def _run_stage(stage: int, part: int, t: Tables, at: Addresses, dt: float) -> int:
+    p, u, x, y = at
     code: int = _call(
         t.kernels[part],
         stage,
-        p.ctypes.data + 8 * t.p_at[part],
-        u.ctypes.data + 8 * t.u_at[part],
-        x.ctypes.data + 8 * t.x_at[part],
-        y.ctypes.data + 8 * t.y_at[part],
+        p + 8 * t.p_at[part],
+        u + 8 * t.u_at[part],
+        x + 8 * t.x_at[part],
+        y + 8 * t.y_at[part],
         dt,
     )
     return code
 
 
 @njit(cache=True)  # type: ignore[untyped-decorator]
-def _begin(part: int, t: Tables, p: Floats, u: Floats, x: Floats, y: Floats, dt: float) -> int:
+def _begin(part: int, t: Tables, at: Addresses, x: Floats, dt: float) -> int:
     """Set the states of one part; values given in the spec come last."""
-    if _run_stage(START, part, t, p, u, x, y, dt):
+    if _run_stage(START, part, t, at, dt):
         return RAISED
     for i in range(t.initial_place.size):
         x[t.initial_place[i]] = t.initial_value[i]
@@ -150,7 +153,7 @@ def _begin(part: int, t: Tables, p: Floats, u: Floats, x: Floats, y: Floats, dt:
 
 @njit(cache=True)  # type: ignore[untyped-decorator]
 def _outputs(
-    moment: int, t: Tables, p: Floats, u: Floats, x: Floats, y: Floats, buffer: Floats, step: int, dt: float
+    moment: int, t: Tables, at: Addresses, u: Floats, x: Floats, y: Floats, buffer: Floats, step: int, dt: float
 ) -> tuple[int, int, int]:
     """Call every `output` in order (at the start, `start` before it): status, part and stage."""
     for c in range(t.calls.shape[0]):
@@ -158,10 +161,10 @@ def _outputs(
         _gather(part, t, u, y, buffer, step)
         status, stage = COMPLETED, START
         if last and moment != RUNNING:
-            status = _begin(part, t, p, u, x, y, dt)
+            status = _begin(part, t, at, x, dt)
         if status == COMPLETED:
             stage = OUTPUT
-            if _run_stage(OUTPUT, part, t, p, u, x, y, dt):
+            if _run_stage(OUTPUT, part, t, at, dt):
                 status = RAISED
             elif last and not _finite(y, t.y_at[part], t.y_at[part + 1]):
                 status = NOT_FINITE
@@ -178,13 +181,13 @@ def _read(t: Tables, y: Floats) -> None:
 
 @njit(cache=True)  # type: ignore[untyped-decorator]
 def _start(
-    t: Tables, p: Floats, u: Floats, x: Floats, y: Floats, buffer: Floats, dt: float
+    t: Tables, at: Addresses, u: Floats, x: Floats, y: Floats, buffer: Floats, dt: float
 ) -> tuple[int, int, int]:
     """Start all parts in two rounds: one so that there is something to read, one with all inputs known."""
     _read(t, y)
     failure = (COMPLETED, 0, 0)
     for moment in (FIRST_ROUND, SECOND_ROUND):
-        failure = _outputs(moment, t, p, u, x, y, buffer, 0, dt)
+        failure = _outputs(moment, t, at, u, x, y, buffer, 0, dt)
         for k in range(t.line_source.size):
             sent = t.line_initial[k]
             if np.isnan(sent):
@@ -213,15 +216,18 @@ def simulate(
 
     `record` has a row for each instant, or none if no trajectory is wanted.
     """
-    status, part, stage = _start(t, p, u, x, y, buffer, dt)
+    at = (p.ctypes.data, u.ctypes.data, x.ctypes.data, y.ctypes.data)
+    status, part, stage = _start(t, at, u, x, y, buffer, dt)
     if status:
         return status, part, stage, 0
     for k in range(steps):
         _step1(model, data)
         _read(t, y)
-        status, part, stage = _outputs(RUNNING, t, p, u, x, y, buffer, k, dt)
+        status, part, stage = _outputs(RUNNING, t, at, u, x, y, buffer, k, dt)
         if status:
             return status, part, stage, k
+        for i in range(t.appliers.size):
+            _gather(t.appliers[i], t, u, y, buffer, k)
         for i in range(t.writes.shape[0]):
             address, of_outputs, place = t.writes[i]
             _store(address, t.signs[i] * (y[place] if of_outputs else u[place]))
@@ -235,7 +241,7 @@ def simulate(
         for i in range(t.updates.size):
             part = t.updates[i]
             _gather(part, t, u, y, buffer, k)
-            if _run_stage(UPDATE, part, t, p, u, x, y, dt):
+            if _run_stage(UPDATE, part, t, at, dt):
                 return RAISED, part, UPDATE, k
             if not _finite(x, t.x_at[part], t.x_at[part + 1]):
                 return NOT_FINITE, part, UPDATE, k

@@ -80,7 +80,7 @@ class _Run:
                 mujoco.mj_step1(self.body.model, self.body.data)
                 self._read()
                 self._outputs(done)
-                self._apply()
+                self._apply(done)
                 for line, delay in zip(self.lines, self.program.delays, strict=True):
                     line[done % len(line)] = self.y[delay.source]
                 if recorded:
@@ -131,7 +131,6 @@ class _Run:
         """Call one function of a part; what it raises or leaves not finite ends the run."""
         function = self.functions[part].get(stage)
         p, u, x, y = self.views[part]
-        changed = y if stage == "output" else x
         if function is not None:
             arguments = {"start": (p, u, x), "output": (p, u, x, y), "update": (p, u, x, y, self.dt)}
             try:
@@ -142,7 +141,7 @@ class _Run:
             for place, value in self.initial.items():
                 self.x[place] = value
         if check and not self._finite(part, stage):
-            raise _Failed(of_values(self.program, part, stage, step, changed))
+            raise _Failed(of_values(self.program, part, stage, step, self.u, self.x, self.y))
 
     def _finite(self, part: int, stage: str) -> bool:
         layout, table = (
@@ -176,7 +175,9 @@ class _Run:
             value = self.body.array(tie.field)[tie_place(self.body.model, tie)]
             self.y[self.program.outputs.place(part, tie.port)] = value
 
-    def _apply(self) -> None:
+    def _apply(self, step: int) -> None:
+        for part in self.body.appliers:
+            self._gather(part, step)
         for part, tie in self.body.assembly.applies:
             value = getattr(self._sender(part, tie.port), tie.port)
             self.body.array(tie.field)[tie_place(self.body.model, tie)] = tie.sign * value

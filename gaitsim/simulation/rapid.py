@@ -75,6 +75,7 @@ class Rapid:
             line_rest=steps - whole,
             line_initial=np.array(initial, dtype=np.float64),
             reads=reads,
+            appliers=_integers(self.body.appliers),
             writes=writes,
             signs=signs,
             initial_place=_integers(list(states)),

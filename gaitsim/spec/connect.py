@@ -10,6 +10,7 @@ from gaitsim.errors import Mark, did_you_mean
 from gaitsim.model import WORLD, Connection, Part, Place
 from gaitsim.spec.expand import Expansion
 from gaitsim.spec.ports import Wire
+from gaitsim.spec.quantity import measured
 from gaitsim.units import parse_unit
 
 
@@ -41,10 +42,10 @@ class Wiring:
         ports = {name: f"{part.address}.{name}" for name in part.type.inputs}
         constants = {name: self._constants[port] for name, port in ports.items() if port in self._constants}
         attachments = {
-            name: self._frame(text, part.mark, f"{part.address}.{name}") for name, text in part.attachments.items()
+            name: self._frame(text, f"{part.address}.{name}", part.mark) for name, text in part.attachments.items()
         }
         points = {
-            name: [Place(self._body_or_frame(p.frame, part.mark, part.address), p.at) for p in places]
+            name: [Place(self._body_or_frame(p.frame), p.at) for p in places]
             for name, places in part.points.items()
         }
         return replace(part, constants=constants, attachments=attachments, points=points)
@@ -57,9 +58,11 @@ class Wiring:
         declared = part and (part.type.outputs.get(name) or part.type.states.get(name))
         if declared:
             return address, declared.unit
-        if self._broken(text):
+        if self.expansion.is_broken(text):
             return None
-        known = [*self.expansion.outputs, *(f"{a}.{s}" for a, p in self.parts.items() for s in p.type.states)]
+        mechanical = {a: p.type.outputs for a, p in self.parts.items() if "build" in p.type.functions}
+        known = [f"{a}.{name}" for a, outputs in mechanical.items() for name in outputs]
+        known += [f"{a}.{name}" for a, p in self.parts.items() for name in p.type.states]
         self.faults.add(f"{text} is no coordinate and no state. {did_you_mean(text, known)}", mark, "initial")
         return None
 
@@ -71,16 +74,12 @@ class Wiring:
             seen.add(name)
         return name
 
-    def _broken(self, name: str) -> bool:
-        """Whether a name lies in a part that could not be loaded; that has been said already."""
-        return any(name == part or name.startswith(f"{part}.") for part in self.expansion.broken)
-
     def _output(self, wire: Wire) -> str | None:
         name = self._follow(wire.source, self.expansion.outputs)
         owner, _, port = name.rpartition(".")
         if owner in self.parts and port in self.parts[owner].type.outputs:
             return name
-        if not self._broken(wire.source):
+        if not self.expansion.is_broken(wire.source):
             hint = did_you_mean(wire.source, self.expansion.outputs)
             self.faults.add(f"there is no output {wire.source}. {hint}", wire.mark, wire.target)
         return None
@@ -88,7 +87,7 @@ class Wiring:
     def _inputs(self, name: str, mark: Mark, address: str) -> list[str]:
         """The inputs of primitives that a name stands for."""
         targets = self.expansion.inputs.get(name)
-        if targets is None and self._broken(name):
+        if targets is None and self.expansion.is_broken(name):
             return []
         if targets is None:
             hint = did_you_mean(name, self.expansion.inputs)
@@ -104,8 +103,8 @@ class Wiring:
         given, asked = self._unit(source, "outputs"), self._unit(target, "inputs")
         if "*" in (given, asked) or parse_unit(given).dimension == parse_unit(asked).dimension:
             return True
-        words = f"{source} is {parse_unit(given).article} [{given}]"
-        rule = f"{target} takes {parse_unit(asked).article} [{asked}]; connect another output."
+        words = f"{source} is {measured(parse_unit(given))} [{given}]"
+        rule = f"{target} takes {measured(parse_unit(asked))} [{asked}]; connect another output."
         self.faults.add(f"{words} but {rule}", mark, target)
         return False
 
@@ -126,7 +125,8 @@ class Wiring:
         senders: dict[str, list[Connection]] = {}
         for connection in made:
             senders.setdefault(connection.target, []).append(connection)
-        tried = {target for wire in self.expansion.wires for target in self._quiet_inputs(wire.target)}
+        named = {wire.target for wire in self.expansion.wires} | self.expansion.ports.tried
+        tried = {target for name in named for target in self._quiet_inputs(name)}
         for part in self.parts.values():
             for name, declared in part.type.inputs.items():
                 port = f"{part.address}.{name}"
@@ -135,13 +135,17 @@ class Wiring:
                 if declared.sums:
                     continue
                 if given > 1:
-                    names = " and ".join(c.source for c in mine) or "a number"
-                    names += " and a number" if port in self._constants and mine else ""
-                    rule = f"takes one sender and has {given}: {names}; remove one, or add them in a part."
-                    self.faults.add(rule, mine[-1].mark if mine else part.mark, port)
+                    names = " and ".join(self._written(c) for c in mine)
+                    names += " and a number" if port in self._constants else ""
+                    rule = f"takes one sender and has {given}: {names}; remove one, or add them in a part of their own."
+                    self.faults.add(rule, mine[-1].mark, port)
                 elif not given and declared.default is None and port not in tried:
-                    rule = f"is connected to nothing; write {name}: {{from: ...}}, {parse_unit(declared.unit).article}."
-                    self.faults.add(rule, part.mark, port)
+                    rule = f"is connected to nothing; write {name}: {{from: part.output}}"
+                    self.faults.add(f"{rule} with {measured(parse_unit(declared.unit))}.", part.mark, port)
+
+    def _written(self, connection: Connection) -> str:
+        line = f" (line {connection.mark.line})" if connection.mark and connection.mark.line else ""
+        return f"{connection.source}{line}"
 
     def _quiet_inputs(self, name: str) -> set[str]:
         targets = self.expansion.inputs.get(name, [])
@@ -156,15 +160,16 @@ class Wiring:
                 asked = Parameter(declared.unit, declared.doc)
                 self._constants[target] = table.add(target, constant.logical, constant.node, asked, constant.names)
 
-    def _frame(self, text: str, mark: Mark, address: str) -> str:
+    def _frame(self, text: str, address: str, mark: Mark) -> str:
         name = self._follow(text, self.expansion.frames)
-        if name == WORLD or name in self.expansion.frames or self._broken(name):
+        broken = self.expansion.is_broken(name) or self.expansion.is_broken(text)
+        if name == WORLD or name in self.expansion.frames or broken:
             return name
         hint = did_you_mean(text, self.expansion.frames)
-        self.faults.add(f"there is no frame {text}. {hint}", mark, address)
+        self.faults.add(f"there is no frame {text}. {hint}", self.expansion.ports.marks.get(address, mark), address)
         return WORLD
 
-    def _body_or_frame(self, text: str, mark: Mark, address: str) -> str:
+    def _body_or_frame(self, text: str) -> str:
         """A frame, or the body of a part: of a composite's first frame."""
         part = self.parts.get(text)
         if part is not None and part.type.frames:
@@ -172,4 +177,4 @@ class Wiring:
         inside = [name for name in self.expansion.frames if name.startswith(f"{text}.")]
         if text not in self.expansion.frames and inside:
             return self._follow(inside[0], self.expansion.frames).rpartition(".")[0]
-        return self._frame(text, mark, address)
+        return self._follow(text, self.expansion.frames)

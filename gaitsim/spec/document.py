@@ -64,6 +64,14 @@ Node = Union[Scalar, Sequence, Mapping]  # noqa: UP007 (the names below it must 
 def read(path: Path, shown: str | None = None) -> Mapping:
     """The document in a file; `shown` is how errors name that file."""
     name = str(path) if shown is None else shown
+    return parse(text_of(path, name), name)
+
+
+def text_of(path: Path, name: str, what: str = "spec") -> str:
+    """The text in a file of ours; `name` is how errors name it.
+
+    Errors: InvalidSpec if it is no readable text of a reasonable size.
+    """
     try:
         status = path.stat()
         if stat.S_ISDIR(status.st_mode):
@@ -71,11 +79,11 @@ def read(path: Path, shown: str | None = None) -> Mapping:
             hint = f"name one spec in it: {inside}" if inside else "it holds no .yaml file"
             raise _refused(name, f"this is a folder; {hint}.")
         if not stat.S_ISREG(status.st_mode):
-            raise _refused(name, "this is a pipe or a device; save the spec in a file and name it.")
+            raise _refused(name, f"this is a pipe or a device; save the {what} in a file and name it.")
         if status.st_size > SIZE_LIMIT:
             size, limit = status.st_size / 1e6, SIZE_LIMIT // 1_000_000
             rule = f"this file has {size:.1f} MB and the limit is {limit} MB"
-            raise _refused(name, f"{rule}; name a spec, and keep data in other files.")
+            raise _refused(name, f"{rule}; name a {what}, and keep data in other files.")
         data = path.read_bytes()
     except (FileNotFoundError, NotADirectoryError) as error:
         raise _refused(name, _missing(path)) from error
@@ -85,7 +93,7 @@ def read(path: Path, shown: str | None = None) -> Mapping:
     except (OSError, ValueError) as error:  # ValueError: a NUL in the path itself
         reason = getattr(error, "strerror", None) or str(error)
         raise _refused(name, f"it cannot be read ({reason}); check the path.") from error
-    return parse(_decoded(data, name), name)
+    return _decoded(data, name)
 
 
 def parse(text: str, file: str) -> Mapping:

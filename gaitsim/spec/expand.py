@@ -136,7 +136,7 @@ class Expansion:
         dropped = [word for word in node.entries if word in swapped and word not in (*found.words, *_STRUCTURE)]
         self.notices += [f"{where.address}: {found.reference} has no {word}; dropped" for word in dropped]
         kept = without(node, *dropped)
-        return respelled(kept, found.words, found.reference, self.faults, where.address, more=_STRUCTURE)
+        return respelled(kept, found.words, f"{found.reference} has no", self.faults, where.address, more=_STRUCTURE)
 
     def _composite(self, found: Composite, node: Mapping, where: Where) -> None:
         chain = where.scope.references

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import math
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import CodeType
@@ -25,6 +26,7 @@ _FUNCTIONS: dict[str, Callable[..., float]] = {
     "max": max,
 }
 _CONSTANTS = {"pi": math.pi}
+_RULE = "an expression holds numbers, parameters of its mask, + - * / ** and functions; write no more than these."
 
 
 class BadExpression(ValueError):
@@ -42,7 +44,10 @@ class Expression:
     def value(self, numbers: list[float]) -> float:
         """The value for these numbers. Errors: ArithmeticError, ValueError."""
         scope: dict[str, Any] = {name: numbers[index] for name, index in self.names}
-        return float(eval(self.code, {"__builtins__": {}, **_FUNCTIONS, **_CONSTANTS}, scope))
+        value = eval(self.code, {"__builtins__": {}, **_FUNCTIONS, **_CONSTANTS}, scope)
+        if isinstance(value, complex):
+            raise ArithmeticError("a root of a negative number")
+        return float(value)
 
 
 def parse_expression(text: str, unit: str, scope: Mapping[str, tuple[int, str]]) -> Expression:
@@ -50,18 +55,41 @@ def parse_expression(text: str, unit: str, scope: Mapping[str, tuple[int, str]])
 
     Errors: BadExpression.
     """
-    try:
-        tree = ast.parse(text.strip(), mode="eval")
-    except SyntaxError as error:
-        raise BadExpression(f"={text} cannot be read ({error.msg}); write such as =0.5 * height") from error
+    tree = _parsed(text)
     units = {name: parse_unit(u).dimension.without_angle for name, (_, u) in scope.items()}
     found = _dimension(tree.body, units, text)
     declared = parse_unit(unit).dimension
-    if declared.without_angle != found and unit != "*":
-        raise BadExpression(f"={text} gives {found}; this needs {declared}")
+    if declared.without_angle != found and unit != "*" and not _open(found):
+        raise BadExpression(f"={text} gives {found}; this needs {declared}, so multiply or divide by what is missing.")
     used = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} & set(scope)
     names = tuple((name, scope[name][0]) for name in sorted(used))
     return Expression(f"={text}", compile(tree, "<expression>", "eval"), names)
+
+
+def _parsed(text: str) -> ast.Expression:
+    """The tree of an expression, its numbers as floats: powers of whole numbers may grow without end."""
+    if not text.strip():
+        raise BadExpression("there is no expression after the =; write such as =0.5 * height.")
+    try:
+        tree = ast.parse(text.strip(), mode="eval")
+    except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
+        if re.search(r"\d\s+[A-Za-z%]", text):
+            rule = f"={text}: a number in an expression has no unit; make it a parameter of the mask, and name that."
+            raise BadExpression(rule) from error
+        said = getattr(error, "msg", None) or "it is nested too deeply"
+        raise BadExpression(f"={text} cannot be read ({said}); write it like =0.5 * height.") from error
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Constant) and type(node.value) is int:
+            try:
+                node.value = float(node.value)
+            except OverflowError as error:
+                raise BadExpression(f"={text} has a number that is too large; write one below 1.8e308.") from error
+    return tree
+
+
+def _open(dimension: Dimension) -> bool:
+    """Whether a unit was left open, or could not be read: it then fits any."""
+    return bool(dimension.exponents[-1])
 
 
 def _dimension(node: ast.expr, units: Mapping[str, Dimension], text: str) -> Dimension:
@@ -78,7 +106,7 @@ def _dimension(node: ast.expr, units: Mapping[str, Dimension], text: str) -> Dim
             return _call(name, [_dimension(a, units, text) for a in args], text)
         case ast.Call(func=ast.Name(id=name)):
             raise BadExpression(f"{name}() is no function of expressions. {did_you_mean(name, _FUNCTIONS)}")
-    raise BadExpression(f"={text}: an expression has numbers, names, + - * / ** and functions only")
+    raise BadExpression(f"={text}: {_RULE}")
 
 
 def _named(name: str, units: Mapping[str, Dimension]) -> Dimension:
@@ -86,7 +114,8 @@ def _named(name: str, units: Mapping[str, Dimension]) -> Dimension:
         return units[name]
     if name in _CONSTANTS:
         return _PLAIN
-    raise BadExpression(f"{name} is no parameter of this mask. {did_you_mean(name, units)}")
+    hint = did_you_mean(name, units) if units else "It has none; write parameters: first."
+    raise BadExpression(f"{name} is no parameter of this mask. {hint}")
 
 
 def _operation(
@@ -98,28 +127,31 @@ def _operation(
             return a * b
         case ast.Div():
             return a / b
-        case ast.Add() | ast.Sub() if a == b:
+        case ast.Add() | ast.Sub() if a == b or _open(a) or _open(b):
             return a
         case ast.Add() | ast.Sub():
             word = "adds" if isinstance(op, ast.Add) else "subtracts"
             pair = f"{a} and {b}" if word == "adds" else f"{b} from {a}"
-            raise BadExpression(f"={text} {word} {pair}")
+            raise BadExpression(f"={text} {word} {pair}; both need one unit, and a bare number has none.")
         case ast.Pow() if a.plain and b.plain:
             return a
         case ast.Pow() if isinstance(right, ast.Constant) and isinstance(right.value, int | float):
             return a**right.value
-    raise BadExpression(f"={text}: an expression has numbers, names, + - * / ** and functions only")
+        case ast.Pow():
+            raise BadExpression(f"={text} raises {a} to a power; write that power as a number, such as height**2.")
+    raise BadExpression(f"={text}: {_RULE}")
 
 
 def _call(name: str, given: list[Dimension], text: str) -> Dimension:
     if name in ("min", "max"):
         if len(given) < 2 or any(d != given[0] for d in given):
-            raise BadExpression(f"={text}: {name} compares two or more quantities of one unit")
+            raise BadExpression(f"={text}: {name} compares two or more values; give it values of one unit.")
         return given[0]
     if len(given) != 1:
-        raise BadExpression(f"={text}: {name} takes one value")
+        raise BadExpression(f"={text}: {name} takes one value, and here it has {len(given)}; remove the others.")
     if name in ("abs", "sqrt"):
         return given[0] if name == "abs" else given[0] ** 0.5
     if not given[0].plain:
-        raise BadExpression(f"={text}: {name} needs a plain number or an angle, not {given[0]}")
+        rule = f"={text}: {name} takes a plain number or an angle, and this is {given[0]}"
+        raise BadExpression(f"{rule}; divide it by another of its kind.")
     return _PLAIN

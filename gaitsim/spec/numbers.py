@@ -118,7 +118,7 @@ class NumberTable:
         fraction_of: int | None,
     ) -> Number:
         shared = node  # one tune written for both sides is one number
-        node = respelled(node, sorted(VALUE_KEYS), "a value", self.faults, address)
+        node = respelled(node, sorted(VALUE_KEYS), "a value has no key", self.faults, address)
         source = node.entries.get("source")
         origin = str(source.value) if isinstance(source, Scalar) else declared.source
         value_node = node.entries.get("value")

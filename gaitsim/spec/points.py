@@ -2,18 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from collections.abc import Mapping as Map
 from dataclasses import dataclass, field
 
 from gaitsim.component import Parameter
-from gaitsim.errors import Faults
-from gaitsim.model import Place
+from gaitsim.errors import Faults, did_you_mean
+from gaitsim.model import WORLD, Place
 from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
 from gaitsim.spec.numbers import NumberTable
 from gaitsim.spec.scope import Where, absolute
+from gaitsim.spec.spelling import respelled
 
 _LENGTH = Parameter("m", "a coordinate")
 _FRACTION = Parameter("1", "a fraction of the segment's length")
-_FIELDS = {"on", "at"}
+_FIELDS = ("on", "at")
 
 
 @dataclass
@@ -22,6 +25,8 @@ class PointReader:
 
     table: NumberTable
     faults: Faults
+    frames: Map[str, str]
+    broken: Callable[[str], bool]
     _waiting: list[tuple[str, Sequence, Where, list[Place]]] = field(default_factory=list)
 
     def later(self, name: str, node: Mapping, where: Where) -> list[Place]:
@@ -30,7 +35,7 @@ class PointReader:
         if isinstance(given, Sequence):
             self._waiting.append((name, given, where, places))
         else:
-            rule = f"needs {name}, a list such as [{{on: shank, at: [-4 cm, 0 m, 30 %]}}]."
+            rule = f"needs {name}, a list of places; write {name}: [{{on: shank, at: [-4 cm, 0 m, 30 %]}}, ...]."
             self.faults.add(rule, given.mark if given else where.mark, where.address)
         return places
 
@@ -45,21 +50,37 @@ class PointReader:
 
     def _place(self, name: str, node: Node, where: Where) -> Place | None:
         address = f"{where.address}.{name}"
-        if not isinstance(node, Mapping) or set(node.entries) != _FIELDS:
-            self.faults.add("a point is {on: part, at: [x, y, z]}.", node.mark, address)
+        before = len(self.faults.found)
+        if isinstance(node, Mapping):
+            node = respelled(node, _FIELDS, "a point has no key", self.faults, address)
+        if not isinstance(node, Mapping) or set(node.entries) != set(_FIELDS):
+            if len(self.faults.found) > before:
+                return None
+            rule = "a point says on which part it lies and where; write {on: shank, at: [-4 cm, 0 m, 30 %]}."
+            self.faults.add(rule, node.mark, address)
             return None
         on, at = node.entries["on"], node.entries["at"]
         if not isinstance(at, Sequence) or len(at.items) != 3:
-            self.faults.add("at: is three coordinates, such as [-4 cm, 0 m, 30 %].", at.mark, address)
+            rule = "at: needs three coordinates; write such as at: [-4 cm, 0 m, 30 %]."
+            self.faults.add(rule, at.mark, address)
             return None
         if not isinstance(on, Scalar) or not isinstance(on.value, str):
-            self.faults.add("on: names a part or a frame, such as shank.", on.mark, address)
+            self.faults.add("on: names a part or a frame; write such as on: shank.", on.mark, address)
             return None
         frame = absolute(on.value, where, on.mark, self.faults)
-        if frame is None:
+        if frame is None or self.broken(frame) or not self._has_frame(frame, on, address):
             return None
         x, y, z = (self._coordinate(f"{name}.at.{i}", item, where, frame) for i, item in enumerate(at.items))
         return Place(frame, (x, y, z))
+
+    def _has_frame(self, frame: str, on: Scalar, address: str) -> bool:
+        """Whether points can lie on a part or a frame."""
+        if frame == WORLD or any(f == frame or f.startswith(f"{frame}.") for f in self.frames):
+            return True
+        bodies = {WORLD} | {name.rpartition(".")[0] for name in self.frames}
+        near = did_you_mean(frame, [*self.frames] if frame.rpartition(".")[0] in bodies else bodies)
+        self.faults.add(f"points cannot lie on {on.value}, which has no frame. {near}", on.mark, address)
+        return False
 
     def _coordinate(self, name: str, node: Node, where: Where, frame: str) -> int:
         address, logical = f"{where.address}.{name}", f"{where.logical}.{name}"

@@ -9,7 +9,9 @@ from gaitsim.component import Input, Option, Parameter
 from gaitsim.errors import Faults, Mark, did_you_mean
 from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
 from gaitsim.spec.numbers import Names, NumberTable, is_value
+from gaitsim.spec.quantity import said as said_of
 from gaitsim.spec.scope import Where, absolute
+from gaitsim.spec.spelling import respelled
 
 _DELAY = Parameter("s", "a delay", bounds=(0, 3600))
 _FIELDS = ("from", "delay", "initial")
@@ -45,6 +47,8 @@ class PortReader:
     faults: Faults
     wires: list[Wire] = field(default_factory=list)
     constants: list[Constant] = field(default_factory=list)
+    tried: set[str] = field(default_factory=set)  # inputs that an entry says something about
+    marks: dict[str, Mark] = field(default_factory=dict)  # where attachments are written
 
     def wire(self, source: str, target: str, where: Where) -> None:
         """A connection that a part makes with its own inner part."""
@@ -55,15 +59,20 @@ class PortReader:
         given, port = node.entries.get(name), f"{where.address}.{name}"
         if given is None:
             return
+        self.tried.add(port)
         if isinstance(given, Mapping) and not is_value(given):
             if declared.sums:
-                self.faults.add(f"{name} sums its senders; write to: {port} at the sender.", given.mark, port)
+                source = given.entries.get("from")
+                sender = f" of {source.value}" if isinstance(source, Scalar) else ""
+                rule = f"this input sums its senders; write to: {port} at the part{sender} instead."
+                self.faults.add(rule, given.mark, port)
             else:
                 self._from(given, port, f"{where.logical}.{name}", where)
             return
         text = given.value if isinstance(given, Scalar) else None
         if isinstance(text, str) and text[:1] not in "=+-.0123456789":
-            self.faults.add(f"to wire this input, write {{from: {text}}}.", given.mark, port)
+            rule = f'"{text}" is no number; to connect this input, write {name}: {{from: {text}}}.'
+            self.faults.add(rule, given.mark, port)
             return
         self.constants.append(Constant(port, f"{where.logical}.{name}", given, where.scope.names))
 
@@ -92,13 +101,14 @@ class PortReader:
         for name in names:
             given = node.entries.get(name)
             if given is None:
-                rule = f"is fastened to nothing; write {name}: part.frame (or world)."
+                rule = f"is fastened to nothing by its {name}; write {name}: part.frame, or {name}: world."
                 self.faults.add(rule, where.mark, where.address)
                 continue
-            text = self._text(given, f"{name} names a frame, such as thigh.distal.", where)
+            text = self._text(given, f"{name} names a frame; write such as {name}: thigh.distal.", where)
             frame = absolute(text, where, given.mark, self.faults) if text else None
             if frame:
                 found[name] = frame
+                self.marks[f"{where.address}.{name}"] = given.mark
         return found
 
     def option(self, name: str, declared: Option, node: Mapping, where: Where) -> str:
@@ -108,20 +118,18 @@ class PortReader:
         if value in declared.choices and (given is None or isinstance(given, Scalar)):
             return str(value)
         choices = ", ".join(declared.choices)
-        said = "it is not said" if given is None else f'"{value}" is not among them'
+        said = "is not said" if given is None else f"cannot be {said_of(given)}"
         mark = given.mark if given else where.mark
-        self.faults.add(f"{name} is one of {choices}; {said}.", mark, where.address)
+        self.faults.add(f"{name} {said}; choose one of {choices}.", mark, where.address)
         return declared.choices[0]
 
     def _from(self, given: Mapping, port: str, logical: str, where: Where) -> None:
-        for word, mark in given.keys.items():
-            if word not in _FIELDS:
-                self.faults.add(f"{word} is no field of a connection. {did_you_mean(word, _FIELDS)}", mark, port)
+        given = respelled(given, _FIELDS, "a connection has no key", self.faults, port)
         source = given.entries.get("from")
         if source is None:
-            self.faults.add("a connection says from:, such as {from: soleus.force}.", given.mark, port)
+            self.faults.add("this connection has no sender; write such as {from: soleus.force}.", given.mark, port)
             return
-        text = self._text(source, "from: names an output, such as {from: soleus.force}.", where)
+        text = self._text(source, "from: names an output; write such as {from: soleus.force}.", where)
         sender = absolute(text, where, source.mark, self.faults) if text else None
         if sender:
             delay = self._delay(given, port, logical, where)
@@ -135,11 +143,9 @@ class PortReader:
         source, delay = f"{where.address}.{output}", None
         target: Node = node
         if isinstance(node, Mapping):
-            for word, mark in node.keys.items():
-                if word not in ("port", "delay"):
-                    self.faults.add(f"{word} is no field here. {did_you_mean(word, ('port', 'delay'))}", mark, source)
+            node = respelled(node, ("port", "delay"), "a connection here has no key", self.faults, source)
             target = node.entries.get("port", node)
-        text = self._text(target, "to: names a summing input, such as soleus.excitation.", where)
+        text = self._text(target, "to: names a summing input; write such as to: soleus.excitation.", where)
         found = absolute(text, where, target.mark, self.faults) if text else None
         if found is None:
             return

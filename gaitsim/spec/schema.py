@@ -115,11 +115,11 @@ def optimize_section(document: Mapping) -> OptimizeSection:
 
 def header(document: Mapping, faults: Faults) -> tuple[Header | None, Mapping]:
     """The header of a document, None after faults, and the document with its keys as they were meant."""
-    document = respelled(document, Header.model_fields, "a spec", faults)
+    document = respelled(document, Header.model_fields, "a spec has no key", faults)
     for name, model in _SECTIONS.items():
         section = document.entries.get(name)
         if isinstance(section, Mapping):
-            own = respelled(section, model.model_fields, name, faults)
+            own = respelled(section, model.model_fields, f"{name} has no key", faults)
             document = Mapping(document.entries | {name: own}, document.keys, document.mark)
     try:
         made = Header.model_validate({k: v for k, v in plain(document).items() if v is not None})
@@ -134,10 +134,11 @@ def header(document: Mapping, faults: Faults) -> tuple[Header | None, Mapping]:
 def _check_steps(simulate: SimulateSection, document: Mapping, faults: Faults) -> None:
     steps = simulate.duration / simulate.step
     if not 1 <= steps <= _MOST_STEPS:
-        rule = f"{simulate.duration:g} s in steps of {simulate.step:g} s"
-        word = f"are {steps:.3g} steps, more than {_MOST_STEPS:g}" if steps > 1 else "hold not one step"
+        rule = f"a step of {simulate.step:g} s is longer than the duration, {simulate.duration:g} s"
+        if steps > 1:
+            rule = f"{simulate.duration:g} s are {steps:.3g} steps of {simulate.step:g} s; the most are {_MOST_STEPS:g}"
         move = "write a shorter duration or a longer step" if steps > 1 else "write a shorter step"
-        faults.add(f"{rule} {word}; {move}.", _mark(document, ["simulate", "step"]), "simulate.step")
+        faults.add(f"{rule}; {move}.", _mark(document, ["simulate", "step"]), "simulate.step")
 
 
 def _report(detail: Any, document: Mapping, faults: Faults) -> None:

@@ -58,7 +58,7 @@ def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:
         if found is None:
             hint = did_you_mean(text[1:], where.scope.attachments)
             faults.add(f"{text} is no attachment of this mask. {hint}", mark, where.address)
-        return found
+        return found or None
     first, _, rest = text.partition(".")
     known: list[str] = []
     here: Scope | None = where.scope

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 from gaitsim.errors import Faults, Usage
 from gaitsim.spec.document import Mapping, Node, Sequence, dump, plain
 from gaitsim.spec.inheritance import laid, override, split_setting, without
+from gaitsim.spec.quantity import unknown_unit
 from gaitsim.units import UnknownUnit, parse_quantity
 
 _RANGE_LIMIT = 100_000
@@ -77,7 +78,7 @@ def _range(pieces: list[str], text: str) -> list[str]:
     try:
         low, high = parse_quantity(pieces[0]), parse_quantity(pieces[1])
     except UnknownUnit as error:
-        raise Usage(f"--vary {text}: '{error}' is no known unit.") from error
+        raise Usage(f"--vary {text}: {unknown_unit(str(error))}") from error
     count = int(pieces[2]) if pieces[2].isdigit() else 0
     if low is None or high is None or not 1 <= count <= _RANGE_LIMIT:
         raise Usage(f"--vary {text}: a range is low:high:count, such as gain=1:15:20.")

@@ -35,6 +35,8 @@ def explained(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[str, int, 
         word = next((w[0] for w in _BRACED.finditer(line) if w.start() < at.column < w.end()), "")
         if letter == "{" and word:
             return f'between braces a text with {{ or }} needs quotes; write "{word}".', *here
+        if not "".join([line[at.column :], *lines[at.line + 1 :]]).strip():
+            return f"this {opener} is never closed; write the missing {closer}.", *opened
         if at.line != start.line:
             rule = f"this {opener} is not closed before line {at.line + 1}"
             return f"{rule}; write the missing {closer} or comma.", *opened

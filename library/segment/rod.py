@@ -1,8 +1,8 @@
-from gaitsim.component import Component, Frame, Parameter
+from gaitsim.component import Component, Frame, Option, Parameter
 
 
 class Rod(Component):
-    """A rigid segment that hangs from its proximal end along -z; its length is along the rod."""
+    """A rigid segment along a line: it hangs from its proximal end unless another direction is said."""
 
     mass = Parameter("kg", "Mass.", bounds=(1e-6, 1000))
     length = Parameter("m", "Length from the proximal to the distal end.", bounds=(1e-3, 10))
@@ -27,17 +27,21 @@ class Rod(Component):
         bounds=(1e-4, 1),
         source="definition: solid cylinder; irrelevant to motion in a plane",
     )
-    proximal = Frame("The upper end.")
-    distal = Frame("The lower end.")
+    direction = Option("From the proximal to the distal end.", choices=("down", "up", "forward"), default="down")
+    proximal = Frame("The end that counts as the origin.")
+    distal = Frame("The other end.")
     center = Frame("The center of mass.")
 
     @staticmethod
     def build(p, mj):
-        center = (0, 0, -p.center_of_mass * p.length)
+        x, z = {"down": (0, -1), "up": (0, 1), "forward": (1, 0)}[p.direction]
+        end = (x * p.length, 0, z * p.length)
+        center = (p.center_of_mass * end[0], 0, p.center_of_mass * end[2])
         transverse = p.mass * (p.radius_of_gyration * p.length) ** 2
         along = 0.5 * p.mass * p.thickness**2
-        mj.body(mass=p.mass, center_of_mass=center, inertia=(transverse, transverse, along))
+        inertia = (along, transverse, transverse) if x else (transverse, transverse, along)
+        mj.body(mass=p.mass, center_of_mass=center, inertia=inertia)
         mj.frame("proximal", (0, 0, 0))
-        mj.frame("distal", (0, 0, -p.length))
+        mj.frame("distal", end)
         mj.frame("center", center)
-        mj.draw_rod((0, 0, 0), (0, 0, -p.length), p.thickness)
+        mj.draw_rod((0, 0, 0), end, p.thickness)

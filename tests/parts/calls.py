@@ -19,13 +19,9 @@ from gaitsim.simulation.view import View
 from gaitsim.units import parse_unit
 
 FOLDER = shipped_folder()
-FILES = sorted(
-    path for path in FOLDER.glob("*/*") if path.suffix in (".py", ".yaml") and path.stem != "kind"
-)
+FILES = sorted(path for path in FOLDER.glob("*/*") if path.suffix in (".py", ".yaml") and path.stem != "kind")
 STAGES = {"start": START, "output": OUTPUT, "update": UPDATE}
-_C_FUNCTION = ctypes.CFUNCTYPE(
-    ctypes.c_int64, ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_double
-)
+_C_FUNCTION = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_double)
 
 
 def reference_of(path: Path) -> str:
@@ -105,14 +101,14 @@ class Tables:
         return False
 
 
-def computed(reference: str, mode: str = "rapid", **values: Any) -> View:
+def computed(reference: str, mode: str = "rapid", /, **values: Any) -> View:
     """The outputs of a component for these parameters, inputs, states and MuJoCo's numbers."""
     tables = Tables(primitive(reference)).put(values)
     assert not tables.call("output", mode)
     return tables.y
 
 
-def metrics(reference: str, signals: Mapping[str, Any], dt: float, **values: Any) -> dict[str, float]:
+def metrics(reference: str, signals: Mapping[str, Any], dt: float, /, **values: Any) -> dict[str, float]:
     """What a measure reports of hand-made signals: native calls, one a sample."""
     kind = primitive(reference)
     tables = Tables(kind).put(values)

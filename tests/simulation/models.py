@@ -6,8 +6,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, library_folders
+from gaitsim.parts.find import Library, library_folders, shipped_folder
 from gaitsim.simulation.run import Mode, Simulator
+from gaitsim.spec.document import parse
+from gaitsim.spec.inheritance import override
 from gaitsim.spec.resolve import read_spec, resolve
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -25,3 +27,11 @@ def model(path: Path, settings: Settings = ()) -> Model:
 
 def simulator(path: Path, settings: Settings = (), mode: Mode = "rapid") -> Simulator:
     return Simulator(model(path, settings), mode)
+
+
+def written(text: str, settings: Settings = ()) -> Model:
+    """The model of a spec written in a test; it may use the components beside the test specs."""
+    document = parse(text, "spec.yaml")
+    for address, value in settings:
+        document = override(document, address, value)
+    return resolve(document, Library((OWN / "components", shipped_folder())), "spec")

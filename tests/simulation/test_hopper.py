@@ -103,9 +103,7 @@ def test_the_published_height_at_the_published_gain() -> None:
         (15, 0.0585, 0.256, 2894, 2.11),
     ],
 )
-def test_steady_hopping_at_each_gain(
-    gain: float, height: float, contact: float, peak: float, frequency: float
-) -> None:
+def test_steady_hopping_at_each_gain(gain: float, height: float, contact: float, peak: float, frequency: float) -> None:
     # 0.02 ms: the error of the scheme grows with the gain; at 0.1 ms it is 1.7 % of the height at 15.
     outcome = hops(height, "0.02 ms", 8, feedback__gain=str(gain))
     metrics = outcome.metrics

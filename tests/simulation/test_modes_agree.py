@@ -21,7 +21,14 @@ RUNS: list[tuple[Path, Settings]] = [
     # The first second of the hopper is a fall and one stance; from touchdown it also takes off.
     (HOPPER, [("initial.guide.position", "0.99 m"), ("initial.guide.velocity", FALL)]),
     # Two short hops: the feedback, the hold and the take-off twice.
-    (HOPPER, [("initial.guide.position", "1 m"), ("feedback.gain", "15")]),
+    (
+        HOPPER,
+        [
+            ("initial.guide.position", "1 m"),
+            ("feedback.gain", "15"),
+            ("simulate.step", "0.1 ms"),
+        ],
+    ),
 ]
 NAMES = [f"{path.stem}{'-' + '-'.join(a for a, _ in s) if s else ''}" for path, s in RUNS]
 
@@ -33,7 +40,7 @@ CANDIDATES = [
     [0.25, 4.5, 0.4, 60.0],
     [0.3, 2.0, 0.001, 20.0],  # an inertia that no body has: MuJoCo refuses it
 ]
-REASONS = ["", "", "diverged", "", "MuJoCo refuses"]
+REASONS = ["", "", "no finite number", "", "MuJoCo refuses"]
 
 
 def facts(outcome: Outcome) -> tuple[object, ...]:
@@ -46,13 +53,15 @@ def facts(outcome: Outcome) -> tuple[object, ...]:
 
 @pytest.mark.parametrize(("path", "settings"), RUNS, ids=NAMES)
 def test_every_signal_agrees_over_the_first_second(path: Path, settings: Settings) -> None:
-    made = model(path, [*settings, ("simulate.duration", "1 s")])
+    if path.parent != OWN:
+        settings = [*settings, ("simulate.duration", "1 s")]
+    made = model(path, settings)
     rapid = Simulator(made, "rapid").run(recorded=True)
     normal = Simulator(made, "normal").run(recorded=True)
     assert rapid.trajectory is not None and normal.trajectory is not None
     assert (rapid.status, rapid.reason, rapid.steps) == (normal.status, normal.reason, normal.steps)
     assert rapid.status == "completed"
-    assert len(rapid.trajectory.times) == round(1 / made.simulate.step)
+    assert len(rapid.trajectory.times) == round(made.simulate.duration / made.simulate.step)
     assert rapid.trajectory.signals == normal.trajectory.signals
     for signal in rapid.trajectory.signals:
         mine, theirs = rapid.trajectory[signal], normal.trajectory[signal]
@@ -61,7 +70,9 @@ def test_every_signal_agrees_over_the_first_second(path: Path, settings: Setting
     assert rapid.metrics.keys() == normal.metrics.keys()
     for name, value in rapid.metrics.items():
         assert value == pytest.approx(normal.metrics[name], rel=1e-9, abs=1e-12, nan_ok=True), name
-    assert rapid.score == pytest.approx(normal.score, rel=1e-9, nan_ok=True)
+    assert (rapid.score is None) == (normal.score is None)
+    if rapid.score is not None:
+        assert rapid.score == pytest.approx(normal.score, rel=1e-9)
 
 
 @pytest.mark.parametrize("mode", ["rapid", "normal"])
@@ -95,7 +106,9 @@ def test_a_failed_candidate_says_the_same_in_both_modes() -> None:
     rapid = Simulator(made, "rapid").run(diverging, recorded=True)
     normal = Simulator(made, "normal").run(diverging, recorded=True)
     assert rapid.reason == normal.reason
-    assert rapid.reason.startswith("the mechanics diverged in pivot.")
+    assert rapid.reason == (
+        "energy (sensor/mechanical_energy) gives no finite number in output at 0.014 s: kinetic = inf, total = inf"
+    )
     assert rapid.steps == normal.steps > 0
     assert rapid.trajectory is not None and normal.trajectory is not None
     np.testing.assert_allclose(rapid.trajectory.values, normal.trajectory.values, rtol=1e-9)

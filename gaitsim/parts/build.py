@@ -1,0 +1,52 @@
+"""The names of ports and frames that a component's build() hands to MuJoCo's side."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator, Mapping
+
+from gaitsim.component import Attachment, Declaration, Frame, Input, Output
+from gaitsim.errors import did_you_mean
+
+# Which of a call's leading arguments name something declared, and as what.
+_NAMED: Mapping[str, tuple[int, tuple[type, ...], str]] = {
+    "frame": (1, (Frame,), "frame"),
+    "attached": (1, (Attachment,), "attachment"),
+    "tendon_between": (2, (Attachment,), "attachment"),
+    "read": (1, (Output,), "output"),
+    "read_energy": (2, (Output,), "output"),
+    "read_weight": (1, (Output,), "output"),
+    "apply": (1, (Input, Output), "input or output"),
+}
+
+
+def build_faults(build: ast.FunctionDef, known: Mapping[str, Declaration]) -> Iterator[tuple[str, ast.AST]]:
+    """Names that are not declared as what build() takes them for, with their places."""
+    for call, argument, kinds, what in _named(build):
+        word = argument.value if isinstance(argument, ast.Constant) else None
+        if isinstance(word, str) and not isinstance(known.get(word), kinds):
+            hint = did_you_mean(word, [name for name, one in known.items() if isinstance(one, kinds)])
+            yield f"mj.{call} names {word}, which is declared as no {what}. {hint}", argument
+
+
+def placed(build: ast.FunctionDef, kind: type, known: Mapping[str, Declaration]) -> set[str] | None:
+    """What build() gives a place or a value; None if that cannot be seen, as in a loop or a helper."""
+    found = set()
+    for _, argument, kinds, _ in _named(build):
+        if kinds == (kind,):
+            word = argument.value if isinstance(argument, ast.Constant) else None
+            if not isinstance(word, str) or word not in known:
+                return None
+            found.add(word)
+    return found or None
+
+
+def _named(build: ast.FunctionDef) -> Iterator[tuple[str, ast.expr, tuple[type, ...], str]]:
+    side = build.args.args[-1].arg if build.args.args else ""
+    for node in ast.walk(build):
+        if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)):
+            continue
+        if isinstance(node.func.value, ast.Name) and node.func.value.id == side and node.func.attr in _NAMED:
+            count, kinds, what = _NAMED[node.func.attr]
+            for argument in node.args[:count]:
+                yield node.func.attr, argument, kinds, what

@@ -1,0 +1,94 @@
+"""The declarations of a component file: every field of the kind that it must be."""
+
+from __future__ import annotations
+
+import ast
+import dataclasses
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from gaitsim import component
+from gaitsim.component import Declaration, Input, Metric, Option, Output, Parameter, Points, State
+from gaitsim.errors import did_you_mean
+from gaitsim.units import UnknownUnit, known_units, parse_unit
+
+
+def unit_rule(unit: str) -> str:
+    """What is said of a text that is no unit."""
+    return f'"{unit}" is not a unit; write one made of {", ".join(known_units())}, or "1".'
+
+
+def _number(value: Any) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool) and not math.isnan(value)
+
+
+def _texts(value: Any) -> bool:
+    return isinstance(value, tuple) and all(isinstance(item, str) for item in value)
+
+
+def _is_optional_text_or_number(value: Any) -> bool:
+    return value is None or isinstance(value, str) or _number(value)
+
+
+# Of each field: what it may be, and how that is said.
+_FIELDS: Mapping[str, tuple[Any, str]] = {
+    "unit": (lambda v: isinstance(v, str), 'a unit in quotes, such as "N m"'),
+    "doc": (lambda v: isinstance(v, str), "a text in quotes"),
+    "source": (lambda v: isinstance(v, str), "a text in quotes"),
+    "kind": (lambda v: isinstance(v, str), 'a kind in quotes, such as "path"'),
+    "default": (_is_optional_text_or_number, "a number, or a text in quotes"),
+    "bounds": (
+        lambda v: v is None or (isinstance(v, tuple) and len(v) == 2 and all(map(_number, v))),
+        "two numbers in brackets, such as (0, 1)",
+    ),
+    "size": (lambda v: v is None or (type(v) is int and v > 0), "a whole number above 0"),
+    "levels": (_texts, 'names in brackets, such as ("swing", "stance")'),
+    "choices": (lambda v: _texts(v) and bool(v), 'words in brackets, such as ("first", "second")'),
+    "sums": (lambda v: isinstance(v, bool), "True or False"),
+    "reads": (
+        lambda v: isinstance(v, tuple) and all(_texts(pair) and len(pair) == 2 for pair in v),
+        'pairs of names in brackets, such as (("length", "path_length"),)',
+    ),
+}
+_FIELDS = {**_FIELDS, "sends": _FIELDS["reads"]}
+
+
+def field_faults(name: str, one: Declaration) -> Iterator[str]:
+    """What is wrong with the fields of one declaration, in words."""
+    for field in dataclasses.fields(one):
+        fits, wanted = _FIELDS[field.name]
+        value = getattr(one, field.name)
+        if field.name == "default" and isinstance(one, Parameter | Input):
+            fits, wanted = (lambda v: v is None or _number(v)), f"a number without unit, as it is in {one.unit}"
+        if not fits(value):
+            yield f"{name}: {field.name} is {value!r}; write {wanted}."
+            return
+    if isinstance(one, Parameter | Input | Output | State | Metric | Points):
+        try:
+            parse_unit(one.unit)
+        except UnknownUnit:
+            yield f"{name}: {unit_rule(one.unit)}"
+    if isinstance(one, Parameter) and one.bounds is not None:
+        low, high = one.bounds
+        if low > high:
+            yield f"{name}: bounds ({low}, {high}) are reversed."
+        elif one.default is not None and not low <= one.default <= high:
+            yield f"{name}: default {one.default} is outside its bounds ({low}, {high})."
+    if isinstance(one, Option) and one.default not in (None, *one.choices):
+        said = did_you_mean(str(one.default), one.choices)
+        yield f"{name}: default {one.default} is not one of its choices. {said}"
+
+
+def unknown_fields(tree: ast.Module) -> Iterator[tuple[str, ast.keyword]]:
+    """Fields that a declaration does not have, with their places: read before the file is run."""
+    for node in ast.walk(tree):
+        if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in component.__all__):
+            continue
+        declared = getattr(component, node.func.id)
+        if not dataclasses.is_dataclass(declared):
+            continue
+        known = [field.name for field in dataclasses.fields(declared)]
+        for word in node.keywords:
+            if word.arg is not None and word.arg not in known:
+                yield f"{node.func.id} has no {word.arg}. {did_you_mean(word.arg, known)}", word

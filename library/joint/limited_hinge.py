@@ -1,0 +1,54 @@
+from gaitsim.component import Attachment, Component, Input, Output, Parameter
+
+
+def stop_torque(depth, rate, stiffness, damping):
+    """A spring and a damper side by side for a depth > 0; it pushes out and never holds back."""
+    return max(0.0, stiffness * depth + damping * rate) if depth > 0 else 0.0
+
+
+class LimitedHinge(Component):
+    """A hinge in the sagittal plane, about the y axis, with a soft stop at either end of its range.
+
+    A positive angle turns a hanging child backwards, as knee flexion does. A stop is a spring and
+    a damper that act beyond the limit only, and never pull.
+    """
+
+    parent = Attachment("The frame that holds the hinge.")
+    child = Attachment("The frame that turns.")
+    lower = Parameter("rad", "Angle at which the lower stop begins.", bounds=(-6.3, 6.3))
+    upper = Parameter("rad", "Angle at which the upper stop begins.", bounds=(-6.3, 6.3))
+    stiffness = Parameter("N m/rad", "Stiffness of a stop.", bounds=(0, 1e6))
+    stop_damping = Parameter(
+        "N m s/rad", "Damping of a stop.", default=0, bounds=(0, 1e5), source="definition: an elastic stop"
+    )
+    damping = Parameter(
+        "N m s/rad",
+        "Viscous damping everywhere.",
+        default=0,
+        bounds=(0, 1000),
+        source="definition: an ideal hinge",
+    )
+    torque = Input("N m", "Torque on the child about the hinge's axis.", sums=True)
+    angle = Output("rad", "Angle from the posture in which the two frames are aligned.")
+    velocity = Output("rad/s", "Angular velocity.")
+    stop = Output("N m", "Torque of the stops on the child; positive at the lower one.")
+    stop_energy = Output("J", "Elastic energy in the stops.")
+    total = Output("N m", "Torque of stops and senders together.")
+
+    @staticmethod
+    def output(p, u, x, y):
+        below, above = p.lower - y.angle, y.angle - p.upper
+        y.stop = stop_torque(below, -y.velocity, p.stiffness, p.stop_damping) - stop_torque(
+            above, y.velocity, p.stiffness, p.stop_damping
+        )
+        y.stop_energy = 0.5 * p.stiffness * (max(0.0, below) ** 2 + max(0.0, above) ** 2)
+        y.total = y.stop + u.torque
+
+    @staticmethod
+    def build(p, mj):
+        if not p.lower < p.upper:
+            raise ValueError(f"lower {p.lower:g} rad is not below upper {p.upper:g} rad")
+        joint = mj.hinge(axis=(0, 1, 0), damping=p.damping, limits=(p.lower, p.upper))
+        mj.read("angle", joint, "qpos")
+        mj.read("velocity", joint, "qvel")
+        mj.apply("total", joint, "qfrc_applied")

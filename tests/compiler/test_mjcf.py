@@ -1,0 +1,117 @@
+"""The mechanics in MuJoCo, and as the file that stock MuJoCo loads."""
+
+from __future__ import annotations
+
+import mujoco
+import numpy as np
+import pytest
+from simulation.models import HOPPER, OWN, SPECS, model, written
+
+from gaitsim.compiler.mjcf import assemble
+from gaitsim.errors import InvalidSpec
+from gaitsim.simulation.run import Simulator
+
+FILES = [*SPECS, *sorted(OWN.glob("*.yaml"))]
+BODIES = """\
+gaitsim: 1
+parts:
+  upper: {use: segment/rod, mass: 2 kg, length: 1 m}
+  lower: {use: segment/rod, mass: 1 kg, length: 0.5 m}
+  top: {use: joint/hinge, parent: world, child: upper.proximal}
+  bottom: {use: joint/hinge, parent: upper.distal, child: lower.proximal}
+simulate: {duration: 10 ms, step: 1 ms}
+"""
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_the_exported_file_is_the_same_mechanics(path) -> None:
+    simulator = Simulator(model(path))
+    ours = simulator._loop.body.model
+    stock = mujoco.MjModel.from_xml_string(simulator.xml)
+    for name in ("nq", "nv", "nu", "nbody", "ntendon"):
+        assert getattr(stock, name) == getattr(ours, name), name
+    # The file keeps six digits.
+    for name in ("body_mass", "body_inertia", "body_ipos", "body_pos", "dof_damping", "site_pos"):
+        np.testing.assert_allclose(getattr(stock, name), getattr(ours, name), rtol=1e-5, atol=1e-9, err_msg=name)
+    assert stock.opt.timestep == pytest.approx(ours.opt.timestep)
+    assert stock.opt.integrator == ours.opt.integrator == mujoco.mjtIntegrator.mjINT_EULER
+    np.testing.assert_array_equal(stock.opt.gravity, [0, 0, -9.81])
+    chance = np.random.default_rng(1)
+    for _ in range(5):
+        pose = chance.uniform(-0.5, 0.5, ours.nq)
+        lengths = []
+        for each in (stock, ours):
+            data = mujoco.MjData(each)
+            data.qpos[:] = pose
+            mujoco.mj_forward(each, data)
+            lengths.append(data.ten_length.copy())
+        np.testing.assert_allclose(*lengths, rtol=1e-5)
+
+
+def test_bodies_by_hand() -> None:
+    made = Simulator(written(BODIES))._loop.body.model
+    assert list(made.body_mass) == [0, 2, 1]
+    upper = made.body("upper")
+    transverse, along = 2 * 1 / 12, 0.5 * 2 * 0.04**2
+    np.testing.assert_allclose(upper.inertia, [transverse, transverse, along], rtol=1e-12)
+    np.testing.assert_allclose(upper.ipos, [0, 0, -0.5])
+    np.testing.assert_allclose(made.body("lower").pos, [0, 0, -1])
+    data = mujoco.MjData(made)
+    data.qpos[:] = [np.pi / 2, 0]  # a positive angle turns a hanging child backwards
+    mujoco.mj_forward(made, data)
+    np.testing.assert_allclose(data.body("lower").xpos, [-1, 0, 0], atol=1e-12)
+
+
+def test_the_hopper_s_leg_spans_from_the_ground_to_the_hip() -> None:
+    body = Simulator(model(HOPPER))._loop.body
+    assert list(body.model.body_mass) == [0, 80]
+    assert body.data.ten_length[0] == pytest.approx(1.04)
+    assert body.model.ntendon == 1
+
+
+def test_a_candidate_s_numbers_reach_the_mechanics() -> None:
+    made = model(OWN / "tuned_rod.yaml")
+    ours = assemble(made, made.values([3.0, 0.8, 0.25, 10.0])).model
+    rod = ours.body("rod")
+    assert rod.mass[0] == 3
+    np.testing.assert_allclose(rod.inertia[:2], 3 * (0.25 * 0.8) ** 2, rtol=1e-12)
+    np.testing.assert_allclose(rod.ipos, [0, 0, -0.4])
+
+
+def test_what_mujoco_refuses_is_named_by_its_line_in_the_spec() -> None:
+    # Thicker than long: an inertia that no body has.
+    with pytest.raises(InvalidSpec) as caught:
+        Simulator(written(BODIES, [("upper.thickness", "0.9 m")]))
+    assert "MuJoCo refuses the mechanics: Error: inertia must satisfy A + B >= C" in str(caught.value)
+    assert "Element name 'upper', id 1, spec.yaml:3:3" in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "place", "message"),
+    [
+        (
+            "  bottom: {use: joint/hinge, parent: upper.distal, child: lower.proximal}\n",
+            "",
+            "spec.yaml:4:3: lower",
+            "no joint carries it; add one with child: lower.proximal.",
+        ),
+        (
+            "parent: upper.distal, child: lower.proximal",
+            "parent: lower.distal, child: upper.distal",
+            "spec.yaml:6:3: bottom",
+            "upper is carried by top and by bottom; a segment has one joint above it.",
+        ),
+        (
+            "parent: world",
+            "parent: lower.distal",
+            "spec.yaml:5:3: top",
+            "these segments carry each other in a ring: upper, lower; fasten one to world.",
+        ),
+    ],
+    ids=["none", "two", "ring"],
+)
+def test_bodies_form_a_tree(old: str, new: str, place: str, message: str) -> None:
+    assert old in BODIES
+    with pytest.raises(InvalidSpec) as caught:
+        Simulator(written(BODIES.replace(old, new)))
+    assert f"{place}: {message}" in str(caught.value)

@@ -1,0 +1,3 @@
+import math
+
+LIMIT = 5

@@ -1,0 +1,5 @@
+from gaitsim.component import Component
+
+
+class Swing(Component):
+    pass
