@@ -38,7 +38,7 @@ watt = joule / second = W
 pascal = newton / meter ** 2 = Pa
 """
 _NAMES = (
-    *("m", "cm", "mm", "kg", "g", "s", "ms", "min", "h", "rad", "deg", "N", "kN", "J", "kJ", "W", "kW"),
+    *("m", "cm", "mm", "km", "g", "kg", "s", "ms", "min", "h", "rad", "deg", "N", "kN", "J", "kJ", "W", "kW"),
     *("Pa", "kPa", "MPa", "Hz", "K", "A", "%"),
 )
 

@@ -89,6 +89,9 @@ def _check_places(out: Path | None, no_save: bool) -> None:
 
     if out is not None and out.is_dir():
         raise CannotSave(f"{out}: this is a folder; name a file in it, such as --out {out / 'trajectory.csv'}.")
+    blocked = next((folder for folder in out.parents if folder.is_file()), None) if out is not None else None
+    if blocked is not None:
+        raise CannotSave(f"{out}: {blocked} is a file, so nothing can be written below it; choose another --out.")
     if not no_save and RESULTS.exists() and not RESULTS.is_dir():
         rule = "this is a file, and results go into a folder of that name"
         raise CannotSave(f"{RESULTS}: {rule}; rename the file, or use --no-save.")

@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import os
+import re
+import socket
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
 from gaitsim.errors import ExitCode, GaitsimError
 
-_PATIENCE = 20.0  # seconds until a scheduler must answer, and until it must have workers
+_PATIENCE = 15.0  # seconds until a scheduler must answer, and until it must have workers
+_ADDRESS = re.compile(r"(?:(?P<scheme>tcp|tls)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[^\s:/\[\]]+):(?P<port>\d{1,5})")
 
 
 class ClusterError(GaitsimError):
@@ -25,15 +29,19 @@ def local_client(workers: int) -> Any:
     from distributed import Client, LocalCluster
 
     _quiet()
-    dask.config.set({"distributed.scheduler.allowed-failures": 2})
-    cluster = LocalCluster(
-        n_workers=workers,
-        threads_per_worker=1,
-        host="127.0.0.1",
-        dashboard_address=None,
-        silence_logs=logging.CRITICAL,
-    )
-    return Client(cluster, set_as_default=False)
+    dask.config.set({"distributed.scheduler.allowed-failures": 1})
+    try:
+        cluster = LocalCluster(
+            n_workers=workers,
+            threads_per_worker=1,
+            host="127.0.0.1",
+            dashboard_address=None,
+            silence_logs=logging.CRITICAL,
+        )
+        return Client(cluster, set_as_default=False)
+    except (OSError, RuntimeError, TimeoutError) as error:
+        move = "use --workers 0 to do without"
+        raise ClusterError(f"{workers} workers cannot be started on this machine ({error}); {move}.") from error
 
 
 def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Callable[[str], None]) -> Any:
@@ -44,21 +52,22 @@ def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Calla
     from distributed import Client
 
     _quiet()
-    place = scheduler or str(scheduler_file)
-    if scheduler_file is not None and not scheduler_file.is_file():
-        raise ClusterError(f"{scheduler_file}: there is no such scheduler file; start dask scheduler --scheduler-file.")
-    if scheduler is not None and scheduler.startswith("tcp://") and not _loopback(scheduler):
-        say(f"{scheduler}: plain tcp lets anyone who reaches this port run code; use tls:// beyond this machine")
-    address = {"scheduler_file": str(scheduler_file)} if scheduler_file else {"address": scheduler}
+    place = f"{scheduler_file}" if scheduler_file is not None else f"{scheduler}"
+    address = _address_in(scheduler_file) if scheduler_file is not None else f"{scheduler}"
+    scheme, host, port = _parts(address, place)
+    _check_answer(host, port, place)
+    if scheme == "tcp" and not _loopback(host):
+        say(f"{address}: plain tcp lets anyone who reaches this port run code; use tls:// beyond this machine")
+    if scheme == "tls":
+        _check_certificates(place)
     try:
-        client = Client(**address, timeout=_PATIENCE, set_as_default=False)
+        client = Client(f"{scheme}://{host}:{port}", timeout=_PATIENCE, set_as_default=False)
     except (OSError, TimeoutError, ValueError) as error:
-        rule = "no scheduler answers there"
-        move = "start one (dask scheduler), or check the address"
-        raise ClusterError(f"{place}: {rule}; {move}.") from error
+        rule = f"what answers there is no Dask scheduler, or one of another version ({error})"
+        raise ClusterError(f"{place}: {rule}; start one with: dask scheduler.") from error
     try:
         client.wait_for_workers(1, timeout=_PATIENCE)
-    except TimeoutError as error:
+    except (OSError, TimeoutError) as error:
         client.close()
         move = f"start some: dask worker {client.scheduler.address}"
         raise ClusterError(f"{place}: the scheduler has no workers; {move}.") from error
@@ -70,9 +79,48 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
-def _loopback(address: str) -> bool:
-    host = address.split("://", 1)[-1].rsplit(":", 1)[0].strip("[]")
-    return host in ("localhost", "::1") or host.startswith("127.")
+def _address_in(file: Path) -> str:
+    """The address in a scheduler file. Errors: ClusterError."""
+    move = f"start a scheduler that writes it: dask scheduler --scheduler-file {file}"
+    if not file.is_file():
+        raise ClusterError(f"{file}: there is no such scheduler file; {move}.")
+    try:
+        return str(json.loads(file.read_text(encoding="utf-8"))["address"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise ClusterError(f"{file}: this is no scheduler file; {move}.") from error
+
+
+def _parts(address: str, place: str) -> tuple[str, str, int]:
+    """Scheme, host and port of an address. Errors: ClusterError."""
+    found = _ADDRESS.fullmatch(address)
+    if found is None or not 0 < int(found["port"]) < 65536:
+        named = "" if place == address else f" {address}"
+        rule = f"the address{named} is not one of a scheduler"
+        raise ClusterError(f"{place}: {rule}; write one such as tcp://127.0.0.1:8786.")
+    return found["scheme"] or "tcp", found["host"], int(found["port"])
+
+
+def _check_answer(host: str, port: int, place: str) -> None:
+    """Someone listens there. Dask would try again and again. Errors: ClusterError."""
+    try:
+        socket.create_connection((host.strip("[]"), port), timeout=_PATIENCE).close()
+    except OSError as error:
+        reason = error.strerror or str(error)
+        move = "start one (dask scheduler), or mend the address"
+        raise ClusterError(f"{place}: no scheduler answers at {host}:{port} ({reason}); {move}.") from error
+
+
+def _check_certificates(place: str) -> None:
+    """Errors: ClusterError if Dask's configuration has none."""
+    from distributed import Security
+
+    if Security().get_connection_args("client").get("ssl_context") is None:
+        move = "name its files under distributed.comm.tls in Dask's configuration"
+        raise ClusterError(f"{place}: tls needs a certificate, and none is configured; {move}.")
+
+
+def _loopback(host: str) -> bool:
+    return host in ("localhost", "[::1]") or host.startswith("127.")
 
 
 def _quiet() -> None:

@@ -6,50 +6,95 @@ import math
 import socket
 import tempfile
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future
+from dataclasses import dataclass
 from pathlib import Path
+from threading import Thread
+from typing import TypeVar
 
 from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
+from gaitsim.parts.find import shown
 from gaitsim.results.bundle import Bundle, bundle_model
-from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode, Simulator
 
-# A worker keeps what it compiled: one simulator for each bundle and mode.
-_simulators: dict[tuple[str, str], Simulator] = {}
+Result = TypeVar("Result")
 
 
-def simulator_of(bundle: Bundle, mode: Mode) -> Simulator:
-    """The simulator of a bundle, made from the bundle's own files and nothing else.
+@dataclass(frozen=True)
+class Bench:
+    """A simulator, and the folder that its spec and components were read from."""
+
+    simulator: Simulator
+    folder: Path
+
+    def verdict(self, x: Sequence[float]) -> Verdict:
+        """What the journal keeps of a candidate; its reason names files within the bundle, wherever that lies."""
+        outcome = self.simulator.run(x)
+        reason = outcome.reason
+        for folder in (str(self.folder), shown(self.folder)):
+            reason = reason.replace(f"{folder}/", "")
+        metrics = {n: v if math.isfinite(v) else None for n, v in outcome.metrics.items()}
+        return Verdict(outcome.status, reason, outcome.score, metrics, outcome.simulated_seconds, outcome.steps)
+
+
+# A worker keeps what it compiled: one bench for each bundle and mode.
+_benches: dict[tuple[str, str], Bench] = {}
+
+
+def bench_of(bundle: Bundle, mode: Mode) -> Bench:
+    """The bench of a bundle, made from the bundle's own files and nothing else.
 
     Errors: InvalidSpec, InvalidComponent.
     """
     key = (bundle.digest, mode)
-    if key not in _simulators:
-        with tempfile.TemporaryDirectory(prefix="gaitsim-") as folder:
-            bundle.write(Path(folder))
-            _simulators[key] = Simulator(bundle_model(Path(folder), bundle.name), mode)
-    return _simulators[key]
+    if key not in _benches:
+        with tempfile.TemporaryDirectory(prefix="gaitsim-") as name:
+            folder = Path(name)
+            bundle.write(folder)
+            _benches[key] = Bench(Simulator(bundle_model(folder, bundle.name), mode), folder)
+    return _benches[key]
 
 
-def verdict(outcome: Outcome) -> Verdict:
-    """What the journal keeps of an outcome."""
-    metrics = {n: v if math.isfinite(v) else None for n, v in outcome.metrics.items()}
-    return Verdict(
-        outcome.status, outcome.reason, outcome.score, metrics, outcome.simulated_seconds, outcome.steps
-    )
+def forget(bundle: Bundle, mode: Mode) -> None:
+    """Make the bench anew next time: a thread that does not come back still works on this one."""
+    _benches.pop((bundle.digest, mode), None)
+
+
+def in_thread(call: Callable[[], Result], limit: float | None = None) -> Result:
+    """What a call returns, made in a thread of its own: native code cannot be interrupted, waiting for it can.
+
+    Errors: TimeoutError after `limit` seconds; the thread goes on.
+    """
+    answer: Future[Result] = Future()
+
+    def work() -> None:
+        try:
+            answer.set_result(call())
+        except BaseException as error:
+            answer.set_exception(error)
+
+    Thread(target=work, daemon=True).start()
+    return answer.result(limit)
 
 
 class Serial:
     """Evaluates one candidate after the other, in this process."""
 
-    def __init__(self, simulator: Simulator) -> None:
-        self._simulator = simulator
+    def __init__(self, bench: Bench) -> None:
+        self._bench = bench
 
     def __call__(self, candidates: Sequence[Candidate]) -> Iterator[tuple[Evaluation, float, str]]:
         for candidate in candidates:
             began = time.perf_counter()
-            found = verdict(self._simulator.run(candidate.x))
+            found = self._verdict(candidate.x)
             yield Evaluation(candidate, found), time.perf_counter() - began, socket.gethostname()
+
+    def _verdict(self, x: Sequence[float]) -> Verdict:
+        # A debugger wants the main thread, and plain Python can be interrupted there.
+        if self._bench.simulator.mode == "normal":
+            return self._bench.verdict(x)
+        return in_thread(lambda: self._bench.verdict(x))
 
     def close(self) -> None:
         """There is nothing to close."""

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import platform
 from functools import cache
-from importlib.metadata import version
+from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
 
@@ -18,18 +18,26 @@ def fingerprint() -> dict[str, str]:
     folder = Path(gaitsim.__file__).parent
     for path in sorted(folder.rglob("*.py")):
         whole.update(f"{path.relative_to(folder)}\0".encode() + path.read_bytes())
-    libraries = {name: version(name) for name in ("mujoco", "numba", "numpy")}
     return {
         "gaitsim": f"{gaitsim.__version__} ({whole.hexdigest()[:12]})",
         "python": platform.python_version(),
-        **libraries,
+        **{name: found for name in ("mujoco", "numba", "numpy") if (found := _version(name))},
     }
 
 
 def differences(ours: dict[str, str], theirs: dict[str, str]) -> str:
     """What differs, in words; empty if nothing does."""
+    if not theirs:
+        return f"no gaitsim, and this process has {ours['gaitsim']}"
     return ", ".join(
-        f"{name} {theirs.get(name, 'absent')} instead of {value}"
+        f"{name} {theirs[name]} instead of {value}" if name in theirs else f"no {name} instead of {value}"
         for name, value in ours.items()
         if theirs.get(name) != value
     )
+
+
+def _version(library: str) -> str | None:
+    try:
+        return version(library)
+    except PackageNotFoundError:
+        return None

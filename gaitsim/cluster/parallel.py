@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import contextlib
 import time
 import uuid
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from queue import Empty, Queue
 from typing import Any
 
@@ -17,91 +19,150 @@ from gaitsim.simulation.run import Mode
 
 _TASK_SECONDS = 0.2  # a task shorter than this is mostly Dask's own time
 _CHUNKS_A_WORKER = 4
-_SILENCE = 60.0  # seconds without workers until we give up
-
+_SAME = "give all workers this environment and start them again"
 
 Chunked = tuple[Candidate, ...]
 Found = tuple[Evaluation, float, str]
 
 
+@dataclass(frozen=True)
+class Patience:
+    """Seconds until something is given up. They are long: no score may depend on how fast a machine is."""
+
+    first: float = 3600.0  # for a candidate, while none is known
+    least: float = 60.0  # for a candidate, and so many times the mean of the others
+    times: float = 20.0
+    workers: float = 60.0  # without any worker
+
+    def limit(self, mean: float | None) -> float:
+        """How long one candidate may take."""
+        return self.first if mean is None else self.least + self.times * mean
+
+
 class Parallel:
     """An evaluator on the workers of a client."""
 
-    def __init__(self, client: Any, bundle: Bundle, mode: Mode) -> None:
+    def __init__(self, client: Any, bundle: Bundle, mode: Mode, patience: Patience | None = None) -> None:
         self._client, self._mode, self._digest = client, mode, bundle.digest
+        self._patience = patience or Patience()
         self._seconds: float | None = None
         self._needs = fingerprint()
-        self._check_workers()
-        client.register_plugin(BundlePlugin(bundle))
+        self._plugin = BundlePlugin(bundle)
+        try:
+            self._check_workers()
+            client.register_plugin(self._plugin)
+        except OSError as error:
+            raise self._lost(error) from error
 
     def close(self) -> None:
+        """Take the model from the workers, and end those that are ours."""
         cluster = self._client.cluster
+        if self._client.status == "running":
+            with contextlib.suppress(OSError, ValueError):
+                self._client.unregister_worker_plugin(self._plugin.name)
         self._client.close()
         if cluster is not None:
             cluster.close()
 
     def __call__(self, candidates: Sequence[Candidate]) -> Iterator[Found]:
+        suspects: list[Candidate] = []
+        yield from self._found(self._chunks(candidates), suspects)
+        for candidate in suspects:
+            # Alone, so that a worker's death is this candidate's doing and not its neighbour's.
+            again: list[Candidate] = []
+            yield from self._found([(candidate,)], again)
+            if again:
+                yield _given_up(candidate, "killed", "this candidate killed every worker that tried it")
+
+    def _found(self, chunks: Iterable[Chunked], suspects: list[Candidate]) -> Iterator[Found]:
+        """Evaluate chunks; whose workers died is added to the suspects."""
         finished: Queue[Any] = Queue()
-        waiting: dict[Any, Chunked] = {}
+        waiting = {self._submit(chunk, finished): chunk for chunk in chunks}
+        slow: set[Candidate] = set()
+        while waiting:
+            future = self._next(finished)
+            chunk = waiting.pop(future)
+            done = self._done(future)
+            if done is None:
+                suspects += chunk
+                continue
+            self._learn(done)
+            yield from ((evaluation, seconds, done.host) for evaluation, seconds in done.evaluations)
+            if not done.too_long:
+                continue
+            self._restart(done.worker)
+            late, rest = chunk[len(done.evaluations)], chunk[len(done.evaluations) + 1 :]
+            if late in slow:
+                yield _given_up(late, "timeout", "this candidate was not done after many times what the others took")
+            again = [chunk for chunk in (rest, () if late in slow else (late,)) if chunk]
+            slow.add(late)
+            waiting |= {self._submit(chunk, finished): chunk for chunk in again}
+
+    def _next(self, finished: Queue[Any]) -> Any:
+        """The next future that is done. Errors: ClusterError if no worker has been there for long."""
+        silent_since = None
+        while True:
+            with contextlib.suppress(Empty):
+                return finished.get(timeout=1.0)
+            if self._has_workers():
+                silent_since = None
+                continue
+            silent_since = silent_since or time.monotonic()
+            if time.monotonic() - silent_since > self._patience.workers:
+                place = self._client.scheduler.address
+                raise ClusterError(f"{place}: all workers are gone; start some: dask worker {place}.")
+
+    def _has_workers(self) -> bool:
+        if self._client.status != "running":
+            raise self._lost(None)
         try:
-            for chunk in self._chunks(candidates):
-                waiting[self._submit(chunk, finished)] = chunk
-            while waiting:
-                future = self._next(finished)
-                found, again = self._collected(future, waiting.pop(future))
-                yield from found
-                for chunk in again:
-                    waiting[self._submit(chunk, finished)] = chunk
+            return bool(self._client.nthreads())
         except (OSError, RuntimeError) as error:
             raise self._lost(error) from error
 
-    def _next(self, finished: Queue[Any]) -> Any:
-        """The next future; an error if no worker has been there for long."""
-        silent_since = None
-        while True:
-            try:
-                return finished.get(timeout=2.0)
-            except Empty:
-                if self._client.status != "running":
-                    raise self._lost(None) from None
-                if self._client.nthreads():
-                    silent_since = None
-                    continue
-                silent_since = silent_since or time.monotonic()
-                if time.monotonic() - silent_since > _SILENCE:
-                    raise ClusterError("all workers are gone; start some, then resume.") from None
+    def _done(self, future: Any) -> Done | None:
+        """What a finished task says; None if its workers died.
 
-    def _collected(self, future: Any, chunk: Chunked) -> tuple[list[Found], list[Chunked]]:
-        """Evaluations of a finished task, and what to try again because a worker died of it."""
+        Errors: ClusterError; RuntimeError for a bug of ours.
+        """
         if future.status == "finished":
             done: Done = future.result()
             if done.refusal:
-                raise ClusterError(f"worker on {done.where}: {done.refusal}")
-            self._learn(done)
-            return [(evaluation, seconds, done.where) for evaluation, seconds in done.evaluations], []
+                raise ClusterError(f"worker {done.worker}: {done.refusal}; {_SAME}.")
+            if done.bug:
+                raise RuntimeError(f"on worker {done.worker}:\n{done.bug}")
+            return done
         error = future.exception() if future.status == "error" else None
-        if type(error).__name__ != "KilledWorker":
-            raise self._lost(error)
-        if len(chunk) > 1:
-            return [], [(candidate,) for candidate in chunk]
-        reason = "this candidate killed every worker that tried it"
-        return [(Evaluation(chunk[0], Verdict("killed", reason, None, {}, 0.0, 0)), 0.0, "")], []
+        if type(error).__name__ == "KilledWorker":
+            return None
+        if error is not None and self._client.status == "running":
+            raise ClusterError(f"a worker cannot do its task ({type(error).__name__}: {error}); {_SAME}.")
+        raise self._lost(error)
 
     def _learn(self, done: Done) -> None:
         """A running mean of the seconds of one evaluation."""
         for _, seconds in done.evaluations:
             self._seconds = seconds if self._seconds is None else 0.9 * self._seconds + 0.1 * seconds
 
+    def _restart(self, worker: str) -> None:
+        """End a worker in which a thread does not come back; one without a nanny goes on beside it."""
+        with contextlib.suppress(OSError, ValueError, TimeoutError):
+            self._client.restart_workers([worker], raise_for_error=False)
+
     def _chunks(self, candidates: Sequence[Candidate]) -> Iterator[Chunked]:
-        workers = max(1, len(self._client.nthreads()))
+        workers = max(1, len(self._client.nthreads())) if self._has_workers() else 1
         by_time = 1 if self._seconds is None else max(1, round(_TASK_SECONDS / max(self._seconds, 1e-6)))
         size = max(1, min(by_time, len(candidates) // (_CHUNKS_A_WORKER * workers)))
         for begin in range(0, len(candidates), size):
             yield tuple(candidates[begin : begin + size])
 
     def _submit(self, candidates: Chunked, finished: Queue[Any]) -> Any:
-        chunk = Chunk(self._digest, self._mode, self._needs, candidates)
-        future = self._client.submit(evaluate_chunk, chunk, key=f"gaitsim-{uuid.uuid4()}", pure=False)
+        limit = self._patience.limit(self._seconds)
+        chunk = Chunk(self._digest, self._mode, self._needs, candidates, limit)
+        try:
+            future = self._client.submit(evaluate_chunk, chunk, key=f"gaitsim-{uuid.uuid4()}", pure=False)
+        except (OSError, RuntimeError) as error:
+            raise self._lost(error) from error
         future.add_done_callback(finished.put)
         return future
 
@@ -113,15 +174,21 @@ class Parallel:
 
         cloudpickle.register_pickle_by_value(handshake)
         try:
-            found = self._client.run(handshake.installed)
+            found = self._client.run(handshake.installed, on_error="return")
         finally:
             cloudpickle.unregister_pickle_by_value(handshake)
         for worker, theirs in found.items():
+            if isinstance(theirs, BaseException):
+                raise ClusterError(f"worker {worker}: it cannot say what it has ({theirs}); {_SAME}.")
             wrong = differences(self._needs, theirs)
             if wrong:
-                rule = f"it has {wrong}"
-                raise ClusterError(f"worker {worker}: {rule}; give all workers this environment and start them again.")
+                raise ClusterError(f"worker {worker}: it has {wrong}; {_SAME}.")
 
     def _lost(self, error: BaseException | None) -> ClusterError:
         said = f" ({error})" if error is not None and str(error) else ""
-        return ClusterError(f"the connection to the scheduler is lost{said}; what has arrived is saved.")
+        place = self._client.scheduler.address if self._client.scheduler else "the scheduler"
+        return ClusterError(f"{place}: the connection to the scheduler is lost{said}; start it and its workers again.")
+
+
+def _given_up(candidate: Candidate, status: str, reason: str) -> Found:
+    return Evaluation(candidate, Verdict(status, reason, None, {}, 0.0, 0)), 0.0, ""

@@ -12,13 +12,14 @@ class Timings:
 
     def __init__(self, folder: Path) -> None:
         path = folder / "timings.csv"
-        new = not path.is_file()
-        self._stream = path.open("a", encoding="utf-8")
-        if new:
-            self._stream.write("generation,index,seconds,host\n")
+        whole = path.read_bytes().rfind(b"\n") + 1 if path.is_file() else 0
+        self._stream = path.open("ab")
+        self._stream.truncate(whole)  # a torn last line goes
+        if not whole:
+            self._stream.write(b"generation,index,seconds,host\n")
 
     def add(self, candidate: Candidate, seconds: float, where: str) -> None:
-        self._stream.write(f"{candidate.generation},{candidate.index},{seconds:.6f},{where}\n")
+        self._stream.write(f"{candidate.generation},{candidate.index},{seconds:.6f},{where}\n".encode())
         self._stream.flush()
 
     def close(self) -> None:

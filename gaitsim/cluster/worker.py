@@ -5,11 +5,13 @@ from __future__ import annotations
 import socket
 import time
 import traceback
+import uuid
 from dataclasses import dataclass
+from functools import partial
 
-from distributed import Worker, WorkerPlugin
+from distributed import Worker, WorkerPlugin, get_worker
 
-from gaitsim.cluster.evaluate import simulator_of, verdict
+from gaitsim.cluster.evaluate import bench_of, forget, in_thread
 from gaitsim.cluster.fingerprint import differences, fingerprint
 from gaitsim.errors import GaitsimError
 from gaitsim.optimization.evaluation import Candidate, Evaluation
@@ -24,7 +26,8 @@ class BundlePlugin(WorkerPlugin):  # type: ignore[misc]
 
     def __init__(self, bundle: Bundle) -> None:
         self.bundle = bundle
-        self.name = f"gaitsim-{bundle.digest[:16]}"
+        # Each search has its own: one that ends does not take the bundle from another.
+        self.name = f"gaitsim-{uuid.uuid4()}"
 
     def setup(self, worker: Worker) -> None:
         _bundles[self.bundle.digest] = self.bundle
@@ -32,40 +35,54 @@ class BundlePlugin(WorkerPlugin):  # type: ignore[misc]
 
 @dataclass(frozen=True)
 class Chunk:
-    """Some candidates of one bundle, and what a worker must be to evaluate them."""
+    """Some candidates of one bundle, what a worker must be to evaluate them, and how long it may take over each."""
 
     digest: str
     mode: Mode
     needs: dict[str, str]
     candidates: tuple[Candidate, ...]
+    limit: float
 
 
 @dataclass(frozen=True)
 class Done:
-    """What a worker found: evaluations with their seconds, or why it could not try."""
+    """What a worker found: evaluations with their seconds; whether the next one took too long; or what is wrong."""
 
-    evaluations: tuple[tuple[Evaluation, float], ...]
-    where: str
+    worker: str
+    host: str
+    evaluations: tuple[tuple[Evaluation, float], ...] = ()
+    too_long: bool = False
     refusal: str = ""
+    bug: str = ""
 
 
 def evaluate_chunk(chunk: Chunk) -> Done:
-    """Evaluate the candidates of a chunk, one after the other."""
-    where = socket.gethostname()
+    """Evaluate the candidates of a chunk, one after the other, until one takes too long."""
+    worker, host = str(get_worker().address), socket.gethostname()
     wrong = differences(chunk.needs, fingerprint())
     if wrong:
-        return Done((), where, f"the worker has {wrong}")
+        return Done(worker, host, refusal=f"it has {wrong}")
     if chunk.digest not in _bundles:
-        return Done((), where, "the worker has not been given the model")
+        return Done(worker, host, refusal="it has not been given the model")
     try:
-        simulator = simulator_of(_bundles[chunk.digest], chunk.mode)
-        found = []
-        for candidate in chunk.candidates:
-            began = time.perf_counter()
-            outcome = simulator.run(candidate.x)
-            found.append((Evaluation(candidate, verdict(outcome)), time.perf_counter() - began))
+        found, too_long = _evaluated(chunk)
     except GaitsimError as error:
-        return Done((), where, str(error))
+        return Done(worker, host, refusal=str(error))
     except Exception:
-        return Done((), where, traceback.format_exc())
-    return Done(tuple(found), where)
+        return Done(worker, host, bug=traceback.format_exc())
+    return Done(worker, host, tuple(found), too_long)
+
+
+def _evaluated(chunk: Chunk) -> tuple[list[tuple[Evaluation, float]], bool]:
+    bundle = _bundles[chunk.digest]
+    bench = bench_of(bundle, chunk.mode)
+    found = []
+    for candidate in chunk.candidates:
+        began = time.perf_counter()
+        try:
+            verdict = in_thread(partial(bench.verdict, candidate.x), chunk.limit)
+        except TimeoutError:
+            forget(bundle, chunk.mode)
+            return found, True
+        found.append((Evaluation(candidate, verdict), time.perf_counter() - began))
+    return found, False

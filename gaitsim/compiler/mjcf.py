@@ -58,7 +58,11 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
 
     def build(part: Part, body: Any = None) -> None:
         mechanics = Mechanics(spec, part, frames, body)
-        function_of(part.type.cls, "build")(numbers_of(part, values, frames), mechanics)
+        try:
+            function_of(part.type.cls, "build")(numbers_of(part, values, frames), mechanics)
+        except ValueError as error:
+            # What a part or MuJoCo says of numbers that make no sense together.
+            raise InvalidSpec(Fault(f"cannot be built: {error}.", part.mark, part.address)) from error
         reads.extend((index[part.address], tie) for tie in mechanics.reads)
         applies.extend((index[part.address], tie) for tie in mechanics.applies)
         constants.extend(mechanics.constants)

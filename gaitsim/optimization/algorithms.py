@@ -15,6 +15,10 @@ from gaitsim.optimization.problem import Problem, Vector
 class Algorithm(Protocol):
     """Asks for vectors (divided by spreads), is told their costs, and says in words when it stops."""
 
+    @property
+    def population(self) -> int:
+        """Candidates a generation."""
+
     def ask(self) -> list[Vector]: ...
 
     def tell(self, vectors: Sequence[Vector], costs: Sequence[float]) -> None: ...
@@ -32,6 +36,7 @@ _REASONS = {
     "tolx": "the steps became too small to matter",
     "tolfacupx": "the steps grew without end; start with a larger spread",
     "tolupsigma": "the steps grew without end",
+    "tolxstagnation": "the best candidates hardly move",
     "tolstagnation": "the median cost has stagnated",
     "conditioncov": "the covariance became ill-conditioned",
     "noeffectaxis": "steps along an axis have no effect any more",
@@ -55,12 +60,19 @@ class CmaEs:
             "verb_log": 0,
             "verb_disp": 0,
             "signals_filename": None,
+            "maxiter": math.inf,
         }
+        if len(problem.variables) == 1:
+            options["maxstd"] = math.inf  # pycma 4 cannot limit the spread of a single number
         if population is not None:
             options["popsize"] = population
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             self._strategy = cma.CMAEvolutionStrategy(problem.scaled(problem.start), 1.0, options)
+
+    @property
+    def population(self) -> int:
+        return int(self._strategy.popsize)
 
     def ask(self) -> list[Vector]:
         asked: list[Vector] = self._strategy.ask()
@@ -71,7 +83,7 @@ class CmaEs:
 
     def stop(self) -> str | None:
         found = self._strategy.stop()
-        reasons = [_REASONS.get(name, name) for name in found]
+        reasons = dict.fromkeys(_REASONS.get(name, name) for name in found)
         return "; ".join(reasons) or None
 
     def distribution(self) -> tuple[Vector, Vector] | None:

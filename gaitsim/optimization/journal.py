@@ -18,6 +18,9 @@ from gaitsim.optimization.evaluation import Candidate, Evaluation, evaluation_of
 from gaitsim.optimization.problem import hash_of
 
 
+_MOVE = "restore it from a copy, or start a new search with --from"
+
+
 class DamagedJournal(GaitsimError):
     """A journal that was edited, or that another program wrote."""
 
@@ -27,12 +30,12 @@ class Journal:
 
     def __init__(self, folder: Path) -> None:
         self._whole, self._arriving = folder / "evaluations.jsonl", folder / "arriving.jsonl"
-        whole = list(read(self._whole))
+        whole = list(_read_whole(folder))
         self._known = {_place(evaluation): evaluation for evaluation in [*whole, *read(self._arriving)]}
         # Whether the last generation is whole is known to the search only, so it arrives anew.
         # First it is safe there, then it is cut here: a crash between the two loses nothing.
-        last = whole[-1].candidate.generation if whole else 0
-        ordered = [e for e in whole if e.candidate.generation < last]
+        last = max((e.candidate.generation for e in whole), default=0)
+        ordered = [e for e in self.evaluations if e.candidate.generation < last]
         _replace(self._arriving, [e for e in self.evaluations if e.candidate.generation >= last])
         _replace(self._whole, ordered)
         self._written = ordered[-1].candidate.generation if ordered else -1
@@ -46,14 +49,16 @@ class Journal:
     def known(self, candidate: Candidate) -> Evaluation | None:
         """The evaluation of a candidate that was made before.
 
-        Errors: DamagedJournal if it was of another vector.
+        Errors: DamagedJournal if it was of another vector, or is gone.
         """
         found = self._known.get((candidate.generation, candidate.index))
+        place = f"generation {candidate.generation}, candidate {candidate.index}"
+        if found is None and candidate.generation <= self._written:
+            rule = f"{place} is missing among later ones, so the file was edited or damaged"
+            raise DamagedJournal(Fault(f"{rule}; {_MOVE}.", Mark(str(self._whole))))
         if found is not None and hash_of(found.candidate.x) != hash_of(candidate.x):
-            place = f"generation {candidate.generation}, candidate {candidate.index}"
-            rule = f"{place} was another vector when it was evaluated, so this search is not that one"
-            move = "resume it with the versions in its manifest.json, or start a new search with --from"
-            raise DamagedJournal(Fault(f"{rule}; {move}.", Mark(str(self._whole))))
+            rule = f"{place} is not the vector that this search asks for, so it was edited or begun with other versions"
+            raise DamagedJournal(Fault(f"{rule}; {_MOVE}.", Mark(str(self._whole))))
         return found
 
     def arrived(self, evaluation: Evaluation) -> None:
@@ -108,8 +113,7 @@ def read(path: Path) -> Iterator[Evaluation]:
             if number == len(lines):
                 return
             rule = f"this line is no evaluation ({error}); the file was edited or damaged"
-            move = "restore it from a copy, or start a new search with --from"
-            raise DamagedJournal(Fault(f"{rule}; {move}.", Mark(str(path), number))) from error
+            raise DamagedJournal(Fault(f"{rule}; {_MOVE}.", Mark(str(path), number))) from error
         yield evaluation
 
 
@@ -118,9 +122,17 @@ def evaluations_in(folder: Path) -> list[Evaluation]:
 
     Errors: DamagedJournal.
     """
-    found = [*read(folder / "evaluations.jsonl"), *read(folder / "arriving.jsonl")]
+    found = [*_read_whole(folder), *read(folder / "arriving.jsonl")]
     known = {_place(evaluation): evaluation for evaluation in found}
     return [known[place] for place in sorted(known)]
+
+
+def _read_whole(folder: Path) -> Iterator[Evaluation]:
+    """The ordered journal, which is made with its folder: without it, a search would begin anew unasked."""
+    path = folder / "evaluations.jsonl"
+    if not path.is_file():
+        raise DamagedJournal(Fault(f"this journal is missing; {_MOVE}.", Mark(str(path))))
+    return read(path)
 
 
 def _place(evaluation: Evaluation) -> tuple[int, int]:

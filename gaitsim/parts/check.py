@@ -257,7 +257,8 @@ class _Check:
                 # A misspelt output has been told of; it is the one that is missing.
                 names -= written | {near for word in written - set(self.known) if (near := nearest(word, names))}
             for missing in sorted(names):
-                self.add(f"{name} never assigns {letter}.{missing}.", self.places.get(missing))
+                also = ", and build never reads it" if kind is Output and "build" in self.functions else ""
+                self.add(f"{name} never assigns {letter}.{missing}{also}.", self.places.get(missing))
         if "build" in self.functions:
             made = placed(self.functions["build"], Frame, self.known)
             frames = {n for n, one in self.known.items() if isinstance(one, Frame)}

@@ -36,7 +36,7 @@ _FIELDS: Mapping[str, tuple[Any, str]] = {
     "unit": (lambda v: isinstance(v, str), 'a unit in quotes, such as "N m"'),
     "doc": (lambda v: isinstance(v, str), "a text in quotes"),
     "source": (lambda v: isinstance(v, str), "a text in quotes"),
-    "kind": (lambda v: isinstance(v, str), 'a kind in quotes, such as "path"'),
+    "kind": (lambda v: isinstance(v, str) and v.isidentifier(), 'a kind in quotes, such as "path"'),
     "default": (_is_optional_text_or_number, "a number, or a text in quotes"),
     "bounds": (
         lambda v: v is None or (isinstance(v, tuple) and len(v) == 2 and all(map(_number, v))),

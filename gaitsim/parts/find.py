@@ -52,7 +52,9 @@ class Library:
         return self._loaded[reference]
 
     def references(self, kind: str = "*") -> list[str]:
-        """Every reference that can be used, sorted."""
+        """Every reference that can be used, sorted; of one kind, or of all."""
+        if kind != "*" and not kind.isidentifier():
+            return []
         found = {
             f"{path.parent.name}/{path.stem}"
             for folder in self.folders

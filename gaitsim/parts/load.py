@@ -40,7 +40,8 @@ def load_primitive(reference: str, path: Path, shown: str) -> Primitive:
     tree = parse(source, shown)
     cls = component_class(execute(source, shown, ieee_math()))
     faults = check_names(tree, cls.declarations, shown, source.splitlines())
-    faults += _part_faults(cls, declaration_marks(tree, shown, source.splitlines()))
+    if not faults:
+        faults = _part_faults(cls, declaration_marks(tree, shown, source.splitlines()))
     if not faults:
         faults = list(audit(source, shown).faults)
     if faults:

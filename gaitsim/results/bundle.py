@@ -53,12 +53,10 @@ def bundled(document: Mapping, name: str, library: Library, starts: Map[str, flo
 
 
 def read_bundle(folder: Path, name: str) -> Bundle:
-    """The bundle that lies in a result folder. Errors: OSError."""
-    paths = [folder / SPEC, *sorted((folder / COMPONENTS).rglob("*.*"))]
-    texts = {p.relative_to(folder).as_posix(): p.read_text(encoding="utf-8") for p in paths if p.is_file()}
-    if (folder / START).is_file():
-        texts[START] = (folder / START).read_text(encoding="utf-8")
-    return Bundle(name, {path: text for path, text in texts.items() if path.endswith((".py", ".yaml", START))})
+    """The bundle that lies in a result folder. Errors: OSError, UnicodeDecodeError."""
+    paths = [path for path in sorted((folder / COMPONENTS).rglob("*")) if path.suffix in (".py", ".yaml")]
+    paths += [folder / SPEC, *([folder / START] if (folder / START).is_file() else [])]
+    return Bundle(name, {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in paths})
 
 
 def bundle_document(folder: Path) -> Mapping:

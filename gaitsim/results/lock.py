@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import math
 import os
 import socket
+import time
 from pathlib import Path
 from types import TracebackType
 from typing import Any
 
 from gaitsim.errors import GaitsimError
+
+
+_WRITING = 5.0  # seconds after which a lock that names no process is not still being written
+_BEGUN = "another process began to write this result"
 
 
 class Locked(GaitsimError):
@@ -35,7 +42,7 @@ class Lock:
             with os.fdopen(descriptor, "w", encoding="utf-8") as file:
                 json.dump({"host": socket.gethostname(), "process": os.getpid()}, file)
             return self
-        raise Locked(f"{self._path}: another process began to write this result; try again.")
+        raise Locked(f"{self._path}: {_BEGUN}; try again.")
 
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
@@ -43,21 +50,37 @@ class Lock:
         self._path.unlink(missing_ok=True)
 
     def _remove_if_stale(self) -> None:
-        holder = self._holder()
+        holder = _holder(self._path)
         host, process = holder.get("host"), holder.get("process")
+        if not holder and self._age() < _WRITING:
+            raise Locked(f"{self._path}: {_BEGUN}; try again.")
         here = host in (None, socket.gethostname())
-        if here and not (isinstance(process, int) and process != os.getpid() and _alive(process)):
-            self._path.unlink(missing_ok=True)
-            return
-        rule = f"process {process} on {host} is writing this result"
-        raise Locked(f"{self._path}: {rule}; wait for it, or remove this file if that process is gone.")
+        if not here or (isinstance(process, int) and process != os.getpid() and _alive(process)):
+            rule = f"process {process} on {host} is writing this result"
+            raise Locked(f"{self._path}: {rule}; wait for it, or remove this file if that process is gone.")
+        # Taken aside by one process only; if it is not what was looked at, someone else was faster.
+        aside = self._path.with_name(f"lock.{os.getpid()}.stale")
+        with contextlib.suppress(FileNotFoundError):
+            self._path.rename(aside)
+            if _holder(aside) != holder:
+                aside.rename(self._path)
+                raise Locked(f"{self._path}: {_BEGUN}; try again.")
+            aside.unlink()
 
-    def _holder(self) -> dict[str, Any]:
+    def _age(self) -> float:
         try:
-            data = json.loads(self._path.read_text(encoding="utf-8"))
-        except (OSError, ValueError):
-            return {}
-        return data if isinstance(data, dict) else {}
+            return time.time() - self._path.stat().st_mtime
+        except OSError:
+            return math.inf
+
+
+def _holder(path: Path) -> dict[str, Any]:
+    """Who holds a lock; nothing if that is not written yet, or is garbage."""
+    try:
+        data = json.loads(path.read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return data if isinstance(data, dict) else {}
 
 
 def _alive(process: int) -> bool:

@@ -38,8 +38,12 @@ def new_manifest(kind: str, bundle: Bundle, mode: str, **more: Any) -> dict[str,
 def write_manifest(folder: Path, manifest: dict[str, Any]) -> None:
     """Replace the manifest as a whole. Errors: OSError."""
     draft = folder / f"{_NAME}.partial"
-    draft.write_text(json.dumps(manifest, indent=2) + "\n", encoding="utf-8")
-    draft.replace(folder / _NAME)
+    try:
+        draft.write_text(json.dumps(manifest, indent=2) + "\n", encoding="utf-8")
+        draft.replace(folder / _NAME)
+    except OSError:
+        draft.unlink(missing_ok=True)
+        raise
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
@@ -50,7 +54,7 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     path = folder / _NAME
     if not folder.is_dir():
         near = sorted(p.name for p in folder.absolute().parent.glob("*") if (p / _NAME).is_file())
-        known = f"; there are: {', '.join(near[-5:])}" if near else ""
+        known = f"; the last are: {', '.join(near[-5:])}" if near else ""
         raise BadResult(f"{folder}: there is no such result{known}. See: gaitsim results list")
     if not path.is_file():
         rule = "there is no manifest.json, so this is no result, or one that was never finished being made"
@@ -64,7 +68,9 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     try:
         found = read_bundle(folder, name).digest
     except OSError as error:
-        raise BadResult(f"{folder}: {error.filename} is missing or cannot be read; restore it from a copy.") from error
+        raise BadResult(f"{error.filename}: this is missing or cannot be read; restore it from a copy.") from error
+    except UnicodeDecodeError as error:
+        raise BadResult(f"{folder}: its spec or a component is no text any more; restore them from a copy.") from error
     if found != digest:
         rule = "its spec or components were edited after it was made, so it would not re-run as it was"
         raise BadResult(f"{folder}: {rule}; restore them, or copy the folder's spec.yaml and run that.")

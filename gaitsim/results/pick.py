@@ -20,7 +20,7 @@ def pick(folder: Path, which: str) -> Evaluation:
         raise BadResult(f"{folder}: nothing was evaluated yet; continue it with: gaitsim optimize {folder} --resume")
     ranked = sorted((e for e in found if not e.failed), key=lambda e: e.cost)
     generation, colon, index = which.partition(":")
-    if colon and generation.isdigit() and index.isdigit():
+    if colon and generation.isdecimal() and index.isdecimal():
         for evaluation in found:
             place = evaluation.candidate
             if (place.generation, place.index) == (int(generation), int(index)):
@@ -28,7 +28,7 @@ def pick(folder: Path, which: str) -> Evaluation:
         last = found[-1].candidate
         rule = f"there is no candidate {which}; the last is {last.generation}:{last.index}"
         raise Usage(f"--candidate {which}: {rule}.")
-    rank = 1 if which == "best" else int(which) if which.isdigit() else 0
+    rank = 1 if which == "best" else int(which) if which.isdecimal() else 0
     if rank < 1:
         raise Usage(f"--candidate {which}: write best, a rank such as 3, or GENERATION:INDEX such as 12:4.")
     if not ranked:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -22,9 +23,11 @@ def remember(folder: Path) -> None:
     new = [digest for digest in _digests(_code_in(folder / COMPONENTS)) if digest not in known]
     if new:
         path = _memory()
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with path.open("a", encoding="utf-8") as file:
-            file.writelines(f"{digest}\n" for digest in new)
+        # Where this cannot be written, the result asks for --trust later: no reason to end a run now.
+        with contextlib.suppress(OSError):
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("a", encoding="utf-8") as file:
+                file.writelines(f"{digest}\n" for digest in new)
 
 
 def check_trust(folder: Path, trusted: bool) -> None:

@@ -39,7 +39,8 @@ def verified(folder: Path, manifest: Map[str, Any], everything: bool) -> Iterato
         yield from _runs(folder, str(manifest["name"]), mode)
         return
     simulator = Simulator(bundle_model(folder, str(manifest["name"])), mode)
-    found = evaluations_in(folder)
+    # What hung or killed a worker would do so again.
+    found = [e for e in evaluations_in(folder) if e.verdict.status not in ("killed", "timeout")]
     if not found:
         raise BadResult(f"{folder}: nothing was evaluated yet, so there is nothing to verify.")
     for evaluation in found if everything else _sample(found):
@@ -51,18 +52,27 @@ def verified(folder: Path, manifest: Map[str, Any], everything: bool) -> Iterato
 
 def _runs(folder: Path, name: str, mode: Mode) -> Iterator[Check]:
     document, library = bundle_document(folder), bundle_library(folder)
-    path = folder / "evaluations.jsonl"
-    try:
-        rows = [json.loads(line) for line in path.read_text(encoding="utf-8").splitlines()]
-    except (OSError, ValueError) as error:
-        raise BadResult(Fault(f"this cannot be read ({error}); restore it from a copy.", Mark(str(path)))) from error
-    for i, row in enumerate(rows):
+    for i, row in enumerate(_rows(folder / "evaluations.jsonl")):
         variant = document
         for address, text in row["settings"].items():
             variant = override(variant, address, text)
         model = resolve(variant, library, name).started_at(bundle_starts(folder))
         now = row_data(row["settings"], Simulator(model, mode).run())
         yield Check(", ".join(f"{a}={v}" for a, v in row["settings"].items()) or f"run {i}", _differences(row, now))
+
+
+def _rows(path: Path) -> list[dict[str, Any]]:
+    """The runs of a result. Errors: BadResult."""
+    rows: list[dict[str, Any]] = []
+    try:
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+            row = json.loads(line)
+            if not all(isinstance(row[name], dict) for name in ("settings", "metrics")) or not {*_COMPARED} <= {*row}:
+                raise ValueError(f"line {number} is no run")
+            rows.append(row)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise BadResult(Fault(f"this cannot be read ({error}); restore it from a copy.", Mark(str(path)))) from error
+    return rows
 
 
 def _differences(before: Map[str, Any], now: Map[str, Any]) -> tuple[str, ...]:

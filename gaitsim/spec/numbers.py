@@ -11,7 +11,8 @@ from gaitsim.model import Free, Number
 from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
 from gaitsim.spec.expression import BadExpression, parse_expression
 from gaitsim.spec.inheritance import VALUE_KEYS
-from gaitsim.spec.quantity import example, number, said
+from gaitsim.spec.quantity import example, number
+from gaitsim.spec.quantity import said as said_of
 from gaitsim.spec.spelling import respelled
 from gaitsim.units import parse_unit
 
@@ -65,7 +66,8 @@ class NumberTable:
                 if not math.isfinite(values[i]):
                     raise ArithmeticError("it is not finite")
             except (ArithmeticError, ValueError) as error:
-                rule = f"{each.expression.text} has no value here ({error}); mend it, or the numbers in it."
+                said = "it divides by zero" if isinstance(error, ZeroDivisionError) else error
+                rule = f"{each.expression.text} has no value here ({said}); mend it, or the numbers in it."
                 self.faults.add(rule, node.mark, each.address)
                 return
             self._within(values[i], declared, node, each.address)
@@ -154,14 +156,16 @@ class NumberTable:
         low, high = bounds
         start = (low + high) / 2 if value is None else value
         if not low <= start <= high:
-            rule = f"the start, {said(node.entries['value'])}, is outside {_range(low, high, declared.unit)}"
-            self.faults.add(f"{rule}; move it, or widen tune.", node.entries["value"].mark, address)
+            written = node.entries.get("value")
+            shown = said_of(written) if written else f"by default {start / parse_unit(declared.unit).factor:g}"
+            rule = f"the start, {shown}, is outside {_range(low, high, declared.unit)}"
+            self.faults.add(f"{rule}; move it, or widen tune.", (written or node).mark, address)
         spread_node = node.entries.get("spread")
         spread = (high - low) / 4
         if spread_node is not None:
             given = number(spread_node, declared.unit, self.faults, address)
             if given is not None and given <= 0:
-                rule = f"a spread is above 0, and this is {said(spread_node)}; write such as a quarter of the range."
+                rule = f"a spread is above 0, and this is {said_of(spread_node)}; write such as a quarter of the range."
                 self.faults.add(rule, spread_node.mark, address)
             spread = given or spread
         known = self._free.get(key)
@@ -183,7 +187,7 @@ class NumberTable:
             self._within(bound, declared, item, address)
         if low >= high:
             word, move = ("reversed", "exchange them") if low > high else ("equal", "write a lower and a higher one")
-            rule = f"the bounds {said(node.items[0])} and {said(node.items[1])} are {word}; {move}."
+            rule = f"the bounds {said_of(node.items[0])} and {said_of(node.items[1])} are {word}; {move}."
             self.faults.add(rule, node.mark, address)
             return None
         return low, high
@@ -196,7 +200,7 @@ class NumberTable:
         given = value / unit.factor
         if not low - 1e-12 * abs(low) <= given <= high + 1e-12 * abs(high):
             shown = f"{given:g}{_suffix(declared.unit)}"
-            words = said(node) if isinstance(node, Scalar) else f'"{shown}"'
+            words = said_of(node) if isinstance(node, Scalar) else f'"{shown}"'
             if words != f'"{shown}"':
                 words += f" is {shown}, which"
             rule = f"{words} is outside {_range(low * unit.factor, high * unit.factor, declared.unit)}"

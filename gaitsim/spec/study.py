@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from gaitsim.errors import Faults, Usage
 from gaitsim.spec.document import Mapping, Node, Sequence, dump, plain
 from gaitsim.spec.inheritance import laid, override, split_setting, without
-from gaitsim.spec.quantity import unknown_unit
+from gaitsim.spec.quantity import said, unknown_unit
 from gaitsim.units import UnknownUnit, parse_quantity
 
 _RANGE_LIMIT = 100_000
@@ -43,12 +43,13 @@ def variants(document: Mapping, vary: Many[str]) -> list[Variant]:
 
 def _study(document: Mapping, base: Mapping) -> list[tuple[dict[str, str], Mapping]]:
     section = document.entries.get("study")
-    if not isinstance(section, Sequence) or not section.items:
+    if section is None or plain(section) in (None, []):
         return [({}, base)]
     rows, faults = [], Faults()
-    for item in section.items:
-        if not isinstance(item, Mapping):
-            faults.add("a study is a list of overrides, such as [{feedback.gain: 2}].", item.mark, "study")
+    for item in section.items if isinstance(section, Sequence) else (section,):
+        if not isinstance(item, Mapping) or item is section:
+            rule = f"{said(item)} is no list of overrides; write study: [{{feedback.gain: 2}}, {{feedback.gain: 3}}]."
+            faults.add(rule, document.keys["study"] if item is section else item.mark, "study")
             continue
         row = base
         for address, node in item.entries.items():

@@ -5,8 +5,8 @@ class Vertical(Component):
     """Keeps one frame straight below (or above) another in the sagittal plane: a restrictor.
 
     A point has the same distance from two places exactly if it lies on the plane half way between
-    them. So two tendons run from the point to places far in front of the line and as far behind
-    it, and one equality keeps them equally long. That adds one row to the solver, no body and no mass.
+    them. So two tendons run from the point to a place in front of the line and to one as far
+    behind it, and one equality keeps them equally long. That adds one row to the solver, no body and no mass.
     """
 
     line = Attachment("The frame that the vertical runs through.")
@@ -14,9 +14,9 @@ class Vertical(Component):
     distance = Parameter(
         "m",
         "How far in front and behind the two places are.",
-        default=10,
+        default=1,
         bounds=(0.1, 1000),
-        source="definition: far compared with a leg",
+        source="definition: of the order of a leg, so that no digits are lost",
     )
     time_constant = Parameter(
         "s",

@@ -23,7 +23,11 @@ class Mujoco(Component):
         "1", "Second number of solref.", default=1, bounds=(1e-3, 100), source="definition: MuJoCo's default"
     )
     stiffness = Parameter(
-        "1/s^2", "K: minus the first number of a direct solref.", default=1e4, bounds=(1, 1e9), source="definition: ours"
+        "1/s^2",
+        "K: minus the first number of a direct solref.",
+        default=1e4,
+        bounds=(1, 1e9),
+        source="definition: a choice",
     )
     damping = Parameter(
         "1/s",
@@ -68,7 +72,7 @@ class Mujoco(Component):
         y.height = y.center_height - p.radius
         y.in_contact = 1.0 if y.height < 0 else 0.0
         y.force = y.touch
-        y.load = y.touch / y.weight
+        y.load = y.touch / y.weight if y.weight > 0 else 0.0
         y.energy = 0.5 * y.touch * max(0.0, -y.height)
 
     @staticmethod

@@ -15,7 +15,7 @@ class SpringDamper(Component):
     velocity = Output("m/s", "Upward velocity of the point.")
     weight = Output("N", "Weight of all that moves.")
     force = Output("N", "Force of the ground on the point, upwards.")
-    load = Output("1", "Force in weights of all that moves.")
+    load = Output("1", "Force in weights of all that moves; 0 without gravity.")
     in_contact = Output("1", "1 while the point is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, k d^2 / 2.")
 
@@ -24,7 +24,7 @@ class SpringDamper(Component):
         depth = max(0.0, -y.height)
         y.in_contact = 1.0 if y.height < 0 else 0.0
         y.force = y.in_contact * max(0.0, p.stiffness * depth - p.damping * y.velocity)
-        y.load = y.force / y.weight
+        y.load = y.force / y.weight if y.weight > 0 else 0.0
         y.energy = 0.5 * p.stiffness * depth**2
 
     @staticmethod

@@ -12,7 +12,11 @@ class HopHeight(Component):
     """
 
     average = Parameter(
-        "1", "How many of the last hops are averaged.", default=3, bounds=(1, 16), source="definition: few enough to be the end, enough to tell a trend"
+        "1",
+        "How many of the last hops are averaged.",
+        default=3,
+        bounds=(1, 16),
+        source="definition: enough to tell a trend",
     )
     least_height = Parameter(
         "m", "Smaller hops are not counted.", default=0.005, bounds=(0, 1), source="definition: a chatter is no hop"

@@ -1,3 +1,5 @@
+import math
+
 from gaitsim.component import Component, Input, Metric, State
 
 
@@ -9,7 +11,7 @@ class StoredEnergy(Component):
     stored = State("J", "Energy at the start.")
     lifted = State("N", "Weight at the start.")
 
-    value = Metric("m", "Energy at the start over the weight.")
+    value = Metric("m", "Energy at the start over the weight; nothing without gravity.")
     energy_at_start = Metric("J", "Energy at the start.")
 
     @staticmethod
@@ -20,4 +22,4 @@ class StoredEnergy(Component):
     @staticmethod
     def finish(p, x, m):
         m.energy_at_start = x.stored
-        m.value = x.stored / x.lifted
+        m.value = x.stored / x.lifted if x.lifted > 0 else math.nan

@@ -5,7 +5,8 @@ from gaitsim.component import Component, Input, Output, Parameter, Part, State
 
 def force_length(length, width):
     """f_l = exp(ln(0.05) |(l - 1) / w|^3); 0.05 at l = 1 +- w."""
-    return math.exp(math.log(0.05) * abs((length - 1) / width) ** 3)
+    offset = abs(length - 1) / width
+    return math.exp(math.log(0.05) * offset * offset * offset)
 
 
 def velocity_from_force(ratio, eccentric, curvature):

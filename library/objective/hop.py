@@ -8,7 +8,9 @@ class Hop(Component):
     smaller, the less is missing. Below 1: enough hops, but their apexes differ. Above 1: hops are missing.
     """
 
-    required_hops = Parameter("1", "Fewer hops are a failure.", default=5, bounds=(1, 100), source="definition: five tell whether hops recur")
+    required_hops = Parameter(
+        "1", "Fewer hops are a failure.", default=5, bounds=(1, 100), source="definition: five tell whether hops recur"
+    )
     largest_spread = Parameter(
         "m", "Apexes that differ by more are a failure.", default=0.01, bounds=(1e-6, 1), source="definition: 1 cm"
     )
@@ -19,9 +21,11 @@ class Hop(Component):
         bounds=(0, 1),
         source="thesis: energy stored in the tendon at the start",
     )
-    scale = Parameter("m", "Height that is worth one unit of cost.", default=1, bounds=(1e-3, 1e3), source="definition: SI")
+    scale = Parameter(
+        "m", "Height that is worth one unit of cost.", default=1, bounds=(1e-3, 1e3), source="definition: SI"
+    )
     patience = Parameter(
-        "s", "Time upright that halves what is missing.", default=1, bounds=(1e-3, 1e3), source="definition: about a hop"
+        "s", "Time upright that counts half.", default=1, bounds=(1e-3, 1e3), source="definition: about a hop"
     )
     height = Input("m", "Mean height of the last hops.")
     spread = Input("m", "Highest minus lowest of the last apexes.")

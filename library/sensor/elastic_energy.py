@@ -7,12 +7,10 @@ class ElasticEnergy(Component):
     energy = Input("J", "Elastic energies.", sums=True)
     total = Output("J", "Their sum.")
     weight = Output("N", "Weight of all that moves.")
-    height = Output("m", "The height to which the sum would lift all that moves.")
 
     @staticmethod
     def output(p, u, x, y):
         y.total = u.energy
-        y.height = u.energy / y.weight
 
     @staticmethod
     def build(p, mj):

@@ -43,7 +43,7 @@ def test_out_is_a_folder(capsys: pytest.CaptureFixture[str]) -> None:
 
 def test_out_lies_below_a_file(capsys: pytest.CaptureFixture[str]) -> None:
     assert refusal(capsys, "--out", "spec.yaml/a.csv") == (
-        "spec.yaml/a.csv: the trajectory cannot be written (File exists); choose another --out.\n"
+        "spec.yaml/a.csv: spec.yaml is a file, so nothing can be written below it; choose another --out.\n"
     )
 
 

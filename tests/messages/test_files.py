@@ -7,7 +7,6 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-
 from gaitsim.cli.main import main
 
 SPEC = """\
@@ -81,7 +80,7 @@ def test_as_a_parent(name: str, said: Callable[[str], str]) -> None:
         f"b.yaml:1:10: extends: a.yaml: {words.format(what='spec')}\n"
         "    1 | extends: a.yaml\n"
         "      |          ^\n"
-    ).replace("it holds no .yaml file", "it holds no .yaml file")
+    )
 
 
 @pytest.mark.parametrize("suffix", [".py", ".yaml"])

@@ -8,9 +8,11 @@ class Rail(Component):
     child = Attachment("The frame that slides.")
     force = Input("N", "Force along the rail.", sums=True)
     position = Output("m", "Place along the rail.")
+    velocity = Output("m/s", "Velocity along the rail.")
 
     @staticmethod
     def build(p, mj):
         joint = mj.slide(axis=(1, 0, 0))
         mj.read("position", joint, "qpos")
+        mj.read("velocity", joint, "qvel")
         mj.apply("push", joint, "qfrc_applied")

@@ -1,0 +1,74 @@
+"""The picture of moment arms, and what is worth a warning about them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from gaitsim.errors import Fault
+from gaitsim.simulation.moment_arms import MomentArm
+
+
+def warnings(arms: Sequence[MomentArm]) -> list[Fault]:
+    """A change of sign of a moment arm within the range of its hinge, and a path that slips."""
+    found = []
+    for arm in arms:
+        low, high = np.degrees(arm.angles[[0, -1]])
+        over = f"{low:.0f} to {high:.0f} deg" + ("" if arm.limited else ", as the hinge has no limits")
+        if arm.turns:
+            places = _degrees(arm.turns)
+            rule = f"the moment arm over {arm.hinge.address} changes sign at {places} (looked at: {over})"
+            move = "beyond it the path pulls the other way; wrap it around the joint, move its points or its side"
+            found.append(Fault(f"{rule}; {move}.", arm.path.mark, arm.path.address))
+        elif arm.jumps:
+            rule = f"the length jumps at {_degrees(arm.jumps)} of {arm.hinge.address} (looked at: {over})"
+            found.append(Fault(f"{rule}; move the cylinder's side or the points.", arm.path.mark, arm.path.address))
+    return found
+
+
+def draw(arms: Sequence[MomentArm], file: Path, title: str) -> None:
+    """A PNG with one panel for each hinge: moment arms in cm over the angle in degrees."""
+    from matplotlib.figure import Figure
+
+    hinges = list(dict.fromkeys(arm.hinge.address for arm in arms))
+    columns = min(3, len(hinges))
+    rows = -(-len(hinges) // columns)
+    figure = Figure(figsize=(5.2 * columns + 0.6, 3.8 * rows + 0.5), layout="constrained", dpi=150)
+    figure.suptitle(f"{title}\npositive: tension turns the hinge to larger angles", fontsize=10)
+    for k, hinge in enumerate(hinges):
+        axes = figure.add_subplot(rows, columns, k + 1)
+        mine = [arm for arm in arms if arm.hinge.address == hinge]
+        for arm in mine:
+            axes.plot(*_with_gaps(arm), label=arm.path.address.removesuffix(".path"))
+            for turn in arm.turns:
+                axes.axvline(np.degrees(turn), color="tab:red", linewidth=0.8, linestyle=":")
+        axes.axhline(0, color="black", linewidth=0.8)
+        limits = "its limits" if mine[0].limited else "no limits declared"
+        axes.set_title(f"{hinge} ({limits})", fontsize=10)
+        axes.set_xlabel(f"{hinge}.angle (deg)")
+        axes.set_ylabel("moment arm (cm)")
+        axes.margins(x=0)
+        low, high = axes.get_ylim()
+        axes.set_ylim(min(low, -0.5), max(high, 0.5))
+        axes.grid(alpha=0.3)
+        axes.legend(fontsize=8)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    figure.savefig(file)
+
+
+def _with_gaps(arm: MomentArm) -> tuple[list[float], list[float]]:
+    """Angles in degrees and arms in cm; the line breaks where the path slips."""
+    angles, arms = [], []
+    for angle, value in zip(arm.angles, arm.arms, strict=True):
+        if float(angle) in arm.jumps:
+            angles.append(float(np.degrees(angle)))
+            arms.append(float("nan"))
+        angles.append(float(np.degrees(angle)))
+        arms.append(100 * float(value))
+    return angles, arms
+
+
+def _degrees(angles: Sequence[float]) -> str:
+    return " and ".join(f"{np.degrees(angle):.0f} deg" for angle in angles)

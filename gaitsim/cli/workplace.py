@@ -1,0 +1,62 @@
+"""Where candidates are evaluated: in this process, on this machine's cores, or on a scheduler's workers."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+from gaitsim.errors import Usage
+from gaitsim.optimization.search import Evaluator
+from gaitsim.results.bundle import Bundle, bundle_model
+from gaitsim.simulation.run import Mode
+
+
+@dataclass(frozen=True)
+class Workplace:
+    """What --workers, --cluster, --scheduler and --scheduler-file say."""
+
+    workers: int | None
+    cluster: bool
+    scheduler: str | None
+    scheduler_file: Path | None
+
+    def check(self) -> None:
+        """Errors: Usage."""
+        if not self.cluster and (self.scheduler is not None or self.scheduler_file is not None):
+            raise Usage("--scheduler and --scheduler-file say where a cluster is; add --cluster.")
+        if self.cluster and not (self.scheduler or self.scheduler_file):
+            raise Usage("--cluster needs --scheduler tcp://host:port or --scheduler-file FILE.")
+        if self.scheduler is not None and self.scheduler_file is not None:
+            raise Usage("--scheduler and --scheduler-file name two places; leave one out.")
+        if self.cluster and self.workers is not None:
+            raise Usage("--workers starts processes here; leave it out with --cluster.")
+        if self.workers is not None and self.workers < 0:
+            raise Usage(f"--workers {self.workers}: a number of processes, or 0 for this one.")
+
+    @property
+    def words(self) -> list[str]:
+        """The options that name this workplace again."""
+        named = {"--workers": self.workers, "--scheduler": self.scheduler, "--scheduler-file": self.scheduler_file}
+        said = [word for option, value in named.items() if value is not None for word in (option, str(value))]
+        return ["--cluster", *said] if self.cluster else said
+
+    def evaluator(self, folder: Path, bundle: Bundle, mode: Mode, say: Callable[[str], None]) -> Evaluator:
+        """What evaluates the candidates of a result.
+
+        Errors: ClusterError.
+        """
+        if self.workers == 0:
+            from gaitsim.cluster.evaluate import Bench, Serial
+            from gaitsim.simulation.run import Simulator
+
+            return Serial(Bench(Simulator(bundle_model(folder, bundle.name), mode), folder))
+        from gaitsim.cluster import connect
+
+        if self.cluster:
+            client = connect.remote_client(self.scheduler, self.scheduler_file, say)
+        else:
+            client = connect.local_client(self.workers or connect.cores())
+        from gaitsim.cluster.parallel import Parallel
+
+        return Parallel(client, bundle, mode)
