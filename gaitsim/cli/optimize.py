@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import shlex
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -13,6 +14,7 @@ from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, T
 
 if TYPE_CHECKING:
     from gaitsim.cli.tuning import Tuning
+    from gaitsim.cli.workplace import Workplace
     from gaitsim.optimization.search import Progress
 
 _INTERRUPTED = 130
@@ -51,20 +53,25 @@ def optimize(
     gaitsim optimize specs/hopping_geyer2003.yaml --resume
     """
     from gaitsim.cli.tuning import Request, begun, resumed
+    from gaitsim.cli.workplace import Workplace
+    from gaitsim.errors import Usage
+    from gaitsim.results.manifest import is_result
 
+    if adopt and is_result(spec):
+        raise Usage(f"--adopt writes beside a spec, and {spec} is a result; name the spec, with --resume.")
     request = Request(
         spec, algorithm, population, generations, seed, mode.value if mode else None, smoke, origin, settings, library, trust
     )
-    workplace = _workplace(workers, cluster, scheduler, scheduler_file)
+    workplace = Workplace(workers, cluster, scheduler, scheduler_file)
+    workplace.check()
     tuning = resumed(request, RESULTS) if resume else begun(request, RESULTS)
     for notice in tuning.notices:
         console.say(notice)
     began = time.perf_counter()
     try:
-        progress = _search(tuning, workplace)
+        progress = _search(tuning, workplace, may_discard=not resume)
     except KeyboardInterrupt:
-        console.say(f"\ninterrupted; everything is saved. To continue: gaitsim optimize {tuning.folder} --resume")
-        return _INTERRUPTED
+        return _interrupted(tuning, workplace, json)
     wall = time.perf_counter() - began
     if adopt:
         console.say(f"wrote {tuning.adopt(spec, progress)}")
@@ -72,29 +79,34 @@ def optimize(
     return 0
 
 
-def _workplace(workers: int | None, cluster: bool, scheduler: str | None, scheduler_file: Path | None) -> dict[str, Any]:
-    from gaitsim.errors import Usage
-
-    if not cluster and (scheduler or scheduler_file):
-        raise Usage("--scheduler and --scheduler-file say where a cluster is; add --cluster.")
-    if cluster and not (scheduler or scheduler_file):
-        raise Usage("--cluster needs --scheduler tcp://host:port or --scheduler-file FILE.")
-    if cluster and workers is not None:
-        raise Usage("--workers starts processes here; leave it out with --cluster.")
-    if workers is not None and workers < 0:
-        raise Usage(f"--workers {workers}: a number of processes, or 0 for this one.")
-    return {"workers": workers, "scheduler": scheduler, "scheduler_file": scheduler_file}
-
-
-def _search(tuning: Tuning, workplace: dict[str, Any]) -> Progress:
-    """Run the search with one line of progress."""
+def _search(tuning: Tuning, workplace: Workplace, may_discard: bool) -> Progress:
+    """Run the search with one line of progress; an error says how to go on."""
     from gaitsim.cli.progress import ProgressLine
+    from gaitsim.cluster.connect import ClusterError
+    from gaitsim.results.store import CannotSave
 
     line = ProgressLine(tuning.generations)
     try:
         return tuning.run(workplace, line.update, console.say)
+    except (ClusterError, CannotSave) as error:
+        if may_discard and isinstance(error, ClusterError) and tuning.discard_if_empty():
+            raise
+        raise type(error)(f"{error} What was evaluated is saved. To continue: {_again(tuning, workplace)}") from error
     finally:
         line.close()
+
+
+def _interrupted(tuning: Tuning, workplace: Workplace, json: bool) -> int:
+    again = _again(tuning, workplace)
+    console.say(f"interrupted; everything is saved. To continue: {again}")
+    if json:
+        console.give_json({"status": "interrupted", "result": str(tuning.folder), "continue": again})
+    return _INTERRUPTED
+
+
+def _again(tuning: Tuning, workplace: Workplace) -> str:
+    """The command that continues a search, where it was going on."""
+    return shlex.join(["gaitsim", "optimize", str(tuning.folder), "--resume", *workplace.words])
 
 
 def _report(tuning: Tuning, progress: Progress, wall: float, json: bool) -> None:

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import json
+import shutil
 from collections import Counter
-from collections.abc import Callable
-from contextlib import ExitStack
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack, suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from gaitsim.cli.source import Source, open_source, source_of_spec
+from gaitsim.cli.workplace import Workplace
 from gaitsim.cluster.timings import Timings
 from gaitsim.errors import Fault, InvalidSpec, Mark, SimulationFailed, Usage, did_you_mean
 from gaitsim.model import Model
@@ -17,17 +20,18 @@ from gaitsim.optimization.algorithms import ALGORITHMS
 from gaitsim.optimization.history import GenerationsFile, parameters_csv
 from gaitsim.optimization.journal import Journal, evaluations_in
 from gaitsim.optimization.problem import Problem
-from gaitsim.optimization.search import Budget, Evaluator, Progress, Search
-from gaitsim.results.bundle import Bundle, bundle_model, read_bundle
+from gaitsim.optimization.search import Budget, Progress, Search
+from gaitsim.results.bundle import SPEC, START, Bundle, bundle_model, read_bundle
 from gaitsim.results.lock import Lock
 from gaitsim.results.manifest import BadResult, changed_versions, is_result, new_manifest, read_manifest, write_manifest
-from gaitsim.results.store import create_result, finish
+from gaitsim.results.store import CannotSave, create_result, finish
 from gaitsim.results.trust import check_trust
 from gaitsim.results.tuned import problem_of, read_tuned, tuned_path, write_tuned
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.schema import OptimizeSection, optimize_section
 
 _SMOKE = {"population": 4, "generations": 2}
+_LEAST = {"population": 2, "generations": 1, "seed": 0}
 
 
 @dataclass(frozen=True)
@@ -69,54 +73,69 @@ class Tuning:
     def mode(self) -> Mode:
         return "normal" if self.manifest["mode"] == "normal" else "rapid"
 
-    def run(
-        self, workplace: dict[str, Any], watch: Callable[[Progress], None], say: Callable[[str], None]
-    ) -> Progress:
-        """Search, and leave the folder complete; or interrupted, with everything in its journal."""
-        search = self.manifest["search"]
-        with ExitStack() as closing:
-            closing.enter_context(Lock(self.folder))
-            write_manifest(self.folder, self.manifest | {"status": "running"})
-            evaluator = self._evaluator(workplace, say)
-            closing.callback(evaluator.close)
-            journal, rows = Journal(self.folder), GenerationsFile(self.folder)
-            timings = Timings(self.folder)
-            for thing in (journal, rows, timings):
-                closing.callback(thing.close)
-            algorithm = ALGORITHMS[search["algorithm"]](self.problem, search["seed"], search["population"])
-            work = Search(self.problem, algorithm, evaluator, journal, rows, timings.add, watch)
-            try:
-                progress = work.run(Budget(self.generations))
-            except BaseException:
-                write_manifest(self.folder, self.manifest | {"status": "interrupted"})
-                raise
-            self._finish(progress)
+    def run(self, workplace: Workplace, watch: Callable[[Progress], None], say: Callable[[str], None]) -> Progress:
+        """Search, and leave the folder complete; or interrupted, with everything in its journal.
+
+        Errors: Locked, CannotSave, ClusterError, DamagedJournal.
+        """
+        try:
+            with Lock(self.folder):
+                progress = self._run_locked(workplace, watch, say)
+        except OSError as error:
+            reason = error.strerror or str(error)
+            raise CannotSave(f"{self.folder}: the search cannot be written ({reason}); make room or rights.") from error
         self._refuse_if_all_failed(progress)
         return progress
 
+    def _run_locked(
+        self, workplace: Workplace, watch: Callable[[Progress], None], say: Callable[[str], None]
+    ) -> Progress:
+        try:
+            with ExitStack() as closing:
+                write_manifest(self.folder, self.manifest | {"status": "running"})
+                work = self._search(closing, workplace, watch, say)
+                progress = work.run(Budget(self.generations))
+                self._finish(progress)
+        except BaseException:
+            with suppress(OSError):
+                write_manifest(self.folder, self.manifest | {"status": "interrupted"})
+            raise
+        return progress
+
+    def _search(
+        self, closing: ExitStack, workplace: Workplace, watch: Callable[[Progress], None], say: Callable[[str], None]
+    ) -> Search:
+        """The search with all that it writes to; what is opened is closed with `closing`."""
+        asked = self.manifest["search"]
+        journal = Journal(self.folder)
+        closing.callback(journal.close)
+        evaluator = workplace.evaluator(self.folder, self.bundle, self.mode, say)
+        closing.callback(evaluator.close)
+        rows, timings = GenerationsFile(self.folder), Timings(self.folder)
+        closing.callback(rows.close)
+        closing.callback(timings.close)
+        algorithm = ALGORITHMS[asked["algorithm"]](self.problem, asked["seed"], asked["population"])
+        return Search(self.problem, algorithm, evaluator, journal, rows, timings.add, watch)
+
+    def discard_if_empty(self) -> bool:
+        """Remove a folder in which nothing was evaluated; whether that was so."""
+        if evaluations_in(self.folder):
+            return False
+        shutil.rmtree(self.folder)
+        return True
+
     def adopt(self, spec: Path, progress: Progress) -> Path:
-        """Write the best values beside the spec."""
-        if is_result(spec):
-            raise Usage("--adopt writes beside a spec; name the spec, with --resume.")
+        """Write the best values beside the spec. Errors: CannotSave."""
         best = progress.best
         assert best is not None and best.verdict.score is not None
         values = dict(zip((f.address for f in self.model.free), best.candidate.x, strict=True))
         units = {f.address: f.unit for f in self.model.free}
-        return write_tuned(spec, str(self.folder), best.verdict.score, values, units)
-
-    def _evaluator(self, workplace: dict[str, Any], say: Callable[[str], None]) -> Evaluator:
-        from gaitsim.cluster.evaluate import Serial
-
-        if workplace["workers"] == 0:
-            return Serial(Simulator(self.model, self.mode))
-        from gaitsim.cluster import connect
-        from gaitsim.cluster.parallel import Parallel
-
-        if workplace["scheduler"] or workplace["scheduler_file"]:
-            client = connect.remote_client(workplace["scheduler"], workplace["scheduler_file"], say)
-        else:
-            client = connect.local_client(workplace["workers"] or connect.cores())
-        return Parallel(client, self.bundle, self.mode)
+        try:
+            return write_tuned(spec, str(self.folder), best.verdict.score, values, units)
+        except OSError as error:
+            reason = error.strerror or str(error)
+            rule = f"the tuned values cannot be written ({reason}); they are saved in {self.folder}"
+            raise CannotSave(f"{tuned_path(spec)}: {rule}.") from error
 
     def _finish(self, progress: Progress) -> None:
         best = progress.best.candidate.x if progress.best and not progress.best.failed else None
@@ -163,23 +182,27 @@ def begun(request: Request, root: Path) -> Tuning:
         move = "add one, such as objective: {use: objective/maximize, value: {from: a metric}}"
         raise InvalidSpec(Fault(f"this spec has no objective; {move}.", Mark(str(request.spec))))
     search = _search_of(source, request)
-    simulator = Simulator(model, "rapid")
+    algorithm = ALGORITHMS[search["algorithm"]](problem_of(model), search["seed"], search["population"])
+    search["population"] = algorithm.population
+    mode: Mode = "normal" if request.mode == "normal" else "rapid"
+    simulator = Simulator(model, mode)
     bundle = source.bundle()
-    mode = request.mode or "rapid"
     manifest = new_manifest("optimize", bundle, mode, spec=str(request.spec), search=search, notices=notices)
-    folder = create_result(root, bundle, model, simulator.xml, manifest, {})
+    folder = create_result(root, bundle, model, simulator.xml, manifest, {"evaluations.jsonl": ""})
     return Tuning(folder, manifest, bundle, bundle_model(folder, bundle.name), [*model.notices, *notices])
 
 
 def resumed(request: Request, root: Path) -> Tuning:
     """A search that was begun before: the folder named, or the newest one of the spec.
 
-    Errors: BadResult, InvalidSpec if the spec or the versions have changed.
+    Errors: BadResult, DamagedJournal, Usage, InvalidSpec if the spec has changed.
     """
+    _check_beside_resume(request)
     folder = request.spec if is_result(request.spec) else _newest(request.spec, root)
     manifest = read_manifest(folder)
     if manifest["kind"] != "optimize":
         raise BadResult(f"{folder}: this is the result of a run; only a search can be resumed.")
+    search = _recorded_search(folder, manifest)
     changed = changed_versions(manifest)
     if changed:
         rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
@@ -188,16 +211,54 @@ def resumed(request: Request, root: Path) -> Tuning:
     bundle = read_bundle(folder, str(manifest["name"]))
     if not is_result(request.spec):
         _check_same_spec(request, folder, bundle)
-    search = dict(manifest["search"])
+    _check_same_search(request, search, str(manifest["mode"]))
+    done = max((e.candidate.generation for e in evaluations_in(folder)), default=0)
+    if request.generations is not None and request.generations < done:
+        raise Usage(f"--generations {request.generations}: {folder} has {done} generations already; ask for more.")
+    search["generations"] = request.generations or search["generations"]
+    model = bundle_model(folder, bundle.name)
+    return Tuning(folder, manifest | {"search": search}, bundle, model, [f"resuming {folder}"])
+
+
+def _check_beside_resume(request: Request) -> None:
+    """What a search that goes on cannot be told. Errors: Usage."""
+    if request.origin is not None or request.smoke:
+        option = "--smoke" if request.smoke else "--from"
+        raise Usage(f"{option} begins a new search, and --resume continues an old one; leave one out.")
+    if is_result(request.spec) and (request.settings or request.library):
+        option = "--set" if request.settings else "--library"
+        raise Usage(f"{option}: {request.spec} goes on with its own spec and components; leave it out.")
+    _check_least({"generations": request.generations})
+
+
+def _check_same_search(request: Request, search: dict[str, Any], mode: str) -> None:
+    """A search goes on as it was begun, but for its generations. Errors: Usage."""
     for name in ("algorithm", "population", "seed"):
         asked = getattr(request, name)
         if asked is not None and asked != search[name]:
             move = "leave it out, or start a new search"
             raise Usage(f"--{name} {asked}: this search was begun with {search[name]}; {move}.")
-    if request.mode is not None and request.mode != manifest["mode"]:
-        raise Usage(f"--mode {request.mode}: this search was begun in {manifest['mode']} mode; leave it out.")
-    search["generations"] = request.generations or search["generations"]
-    return Tuning(folder, manifest | {"search": search}, bundle, bundle_model(folder, bundle.name), [f"resuming {folder}"])
+    if request.mode is not None and request.mode != mode:
+        raise Usage(f"--mode {request.mode}: this search was begun in {mode} mode; leave it out.")
+
+
+def _recorded_search(folder: Path, manifest: dict[str, Any]) -> dict[str, Any]:
+    """How a search was begun. Errors: BadResult."""
+    try:
+        found = OptimizeSection.model_validate(manifest["search"]).model_dump()
+        if found["algorithm"] not in ALGORITHMS or not isinstance(manifest["versions"], dict):
+            raise ValueError("no search of ours")
+        return found
+    except (KeyError, ValueError) as error:
+        rule = "what it says about its search cannot be read, so it was edited; restore it from a copy"
+        raise BadResult(Fault(f"{rule}.", Mark(str(folder / "manifest.json")))) from error
+
+
+def _check_least(numbers: Mapping[str, int | None]) -> None:
+    """Errors: Usage for a number that is too small."""
+    for name, number in numbers.items():
+        if number is not None and number < _LEAST[name]:
+            raise Usage(f"--{name} {number}: this is at least {_LEAST[name]}.")
 
 
 def _search_of(source: Source, request: Request) -> dict[str, Any]:
@@ -209,10 +270,7 @@ def _search_of(source: Source, request: Request) -> dict[str, Any]:
     if found["algorithm"] not in ALGORITHMS:
         hint = did_you_mean(found["algorithm"], ALGORITHMS)
         raise Usage(f"--algorithm {found['algorithm']}: there is no such algorithm. {hint}")
-    for name, least in (("population", 2), ("generations", 1), ("seed", 0)):
-        if found[name] is not None and found[name] < least:
-            raise Usage(f"--{name} {found[name]}: this is at least {least}.")
-    OptimizeSection.model_validate(found)
+    _check_least({name: found[name] for name in _LEAST})
     return found
 
 
@@ -227,6 +285,8 @@ def _started(source: Source, request: Request) -> tuple[Source, list[str]]:
         where, values = str(path), read_tuned(path)[1]
     else:
         where = request.origin
+        if not is_result(Path(where)):
+            raise Usage(f"--from {where}: this is no result; write tuned, or a folder such as results/2026-11-22-walk-3f9c.")
         values = dict(open_source(Path(where), None, None, trusted=request.trust).starts)
     addresses = [f.address for f in source.model().free]
     matched = [a for a in addresses if a in values]
@@ -239,15 +299,15 @@ def _started(source: Source, request: Request) -> tuple[Source, list[str]]:
 
 
 def _newest(spec: Path, root: Path) -> Path:
-    """The newest search of a spec."""
+    """The newest search of a spec; whether it is damaged is seen when it is read."""
     found = []
     for path in root.glob(f"*-{spec.stem}-*/manifest.json"):
         try:
-            manifest = read_manifest(path.parent)
-        except BadResult:
+            manifest = json.loads(path.read_text(encoding="utf-8"))
+            if manifest["kind"] == "optimize" and manifest["name"] == spec.stem and path.parent.suffix != ".partial":
+                found.append((str(manifest["created"]), path.stat().st_mtime, path.parent))
+        except (OSError, ValueError, KeyError, TypeError):
             continue
-        if manifest["kind"] == "optimize" and manifest["name"] == spec.stem:
-            found.append((str(manifest["created"]), path.stat().st_mtime, path.parent))
     if not found:
         raise BadResult(f"{root}: there is no search of {spec} to resume; start one without --resume.")
     return max(found)[2]
@@ -258,9 +318,10 @@ def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
     source = source_of_spec(request.spec, request.settings, request.library, tuned=False)
     source.model()
     now = source.bundle().files
-    before = {path: text for path, text in bundle.files.items() if path != "start.json"}
+    before = {path: text for path, text in bundle.files.items() if path != START}
     changed = sorted(path for path in {*now, *before} if now.get(path) != before.get(path))
     if changed:
-        rule = f"what it was begun with has changed since: {', '.join(changed)}"
+        words = ["spec.yaml (or its --set)" if path == SPEC else path for path in changed]
+        rule = f"what {folder} was begun with has changed since: {', '.join(words)}"
         move = f"continue the old one: gaitsim optimize {folder} --resume; or start a new search with --from {folder}"
         raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.spec))))

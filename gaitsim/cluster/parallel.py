@@ -51,8 +51,11 @@ class Parallel:
         try:
             self._check_workers()
             client.register_plugin(self._plugin)
-        except OSError as error:
-            raise self._lost(error) from error
+        except BaseException as error:
+            self.close()
+            if isinstance(error, OSError):
+                raise self._lost(error) from error
+            raise
 
     def close(self) -> None:
         """Take the model from the workers, and end those that are ours."""

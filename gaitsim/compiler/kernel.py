@@ -159,5 +159,6 @@ def _explained(error: NumbaError, component: Primitive) -> Fault:
     said = next((r for r in reasons if not r.startswith(("Failed in", "File", "During", "-", ">"))), "")
     shown = source[line - 1] if line else ""
     column = len(shown) - len(shown.lstrip()) + 1 if line else 0
-    message = f"this does not compile to native code: {said.rstrip('.')}; use numbers, if, for and math."
-    return Fault(message, Mark(str(component.path), line, column, shown))
+    why = f"numba says: {said.rstrip('.:')}"
+    message = f"this cannot become native code; write it with numbers, if, for and math only ({why})."
+    return Fault(message, Mark(component.shown, line, column, shown))

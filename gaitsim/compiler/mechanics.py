@@ -11,6 +11,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from gaitsim.errors import did_you_mean, with_article
 from gaitsim.model import WORLD, Part
 
 Vector = Sequence[float]
@@ -22,6 +23,15 @@ class Element:
 
     kind: str
     name: str
+
+
+# What MuJoCo's data holds of each kind of element.
+_FIELDS = {
+    "joint": ("qpos", "qvel", "qacc", "qfrc_applied"),
+    "tendon": ("ten_length", "ten_velocity"),
+    "actuator": ("ctrl", "actuator_length", "actuator_velocity", "actuator_force"),
+    "sensor": ("sensordata",),
+}
 
 
 @dataclass(frozen=True)
@@ -262,7 +272,7 @@ class Mechanics:
 
     def read(self, port: str, element: Element, field_name: str, index: int = 0) -> None:
         """Let an output be a number of MuJoCo's data: qpos, ten_length, actuator_velocity, sensordata ..."""
-        self.reads.append(Tie(port, element, field_name, index))
+        self.reads.append(_tie(port, element, field_name, index))
 
     def read_energy(self, potential: str, kinetic: str) -> None:
         """Let two outputs be MuJoCo's potential and kinetic energy."""
@@ -278,7 +288,7 @@ class Mechanics:
 
     def apply(self, port: str, element: Element, field_name: str, sign: float = 1.0) -> None:
         """Write an input or output into MuJoCo's data: qfrc_applied of a joint, ctrl of an actuator."""
-        self.applies.append(Tie(port, element, field_name, 0, sign))
+        self.applies.append(_tie(port, element, field_name, 0, sign))
 
     def draw_sphere(self, position: Vector, radius: float) -> None:
         """A massless sphere to look at."""
@@ -297,6 +307,14 @@ class Mechanics:
     @property
     def _massless(self) -> dict[str, Any]:
         return {"contype": 0, "conaffinity": 0, "mass": 0, "info": self._info}
+
+
+def _tie(port: str, element: Element, field_name: str, index: int, sign: float = 1.0) -> Tie:
+    """A port tied to a number that such an element has. Errors: ValueError."""
+    known = _FIELDS.get(element.kind, ())
+    if field_name not in known:
+        raise ValueError(f"{with_article(element.kind)} has no {field_name}. {did_you_mean(field_name, known)}")
+    return Tie(port, element, field_name, index, sign)
 
 
 def numbers_of(part: Part, values: Sequence[float], frames: Frames) -> SimpleNamespace:

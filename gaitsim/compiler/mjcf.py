@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import mujoco
 
 from gaitsim.compiler.mechanics import Mechanics, Point, Tie, numbers_of, world_frames
-from gaitsim.errors import Fault, Faults, InvalidSpec
+from gaitsim.errors import Fault, Faults, InvalidComponent, InvalidSpec
 from gaitsim.model import WORLD, Model, Part
-from gaitsim.parts.load import function_of
+from gaitsim.parts.load import function_of, raised
 
 _INTEGRATORS = {
     "euler": mujoco.mjtIntegrator.mjINT_EULER,
@@ -41,7 +42,8 @@ class Assembly:
 def assemble(model: Model, values: Sequence[float]) -> Assembly:
     """Build and compile the mechanics for one set of numbers.
 
-    Errors: InvalidSpec if the bodies form no tree or MuJoCo refuses an element.
+    Errors: InvalidSpec if the bodies form no tree or MuJoCo refuses an element, InvalidComponent
+    if a component's build raises.
     """
     spec = mujoco.MjSpec()
     spec.modelname = model.name
@@ -58,11 +60,11 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
 
     def build(part: Part, body: Any = None) -> None:
         mechanics = Mechanics(spec, part, frames, body)
+        p = numbers_of(part, values, frames)
         try:
-            function_of(part.type.cls, "build")(numbers_of(part, values, frames), mechanics)
-        except ValueError as error:
-            # What a part or MuJoCo says of numbers that make no sense together.
-            raise InvalidSpec(Fault(f"cannot be built: {error}.", part.mark, part.address)) from error
+            function_of(part.type.cls, "build")(p, mechanics)
+        except Exception as error:
+            raise InvalidComponent(raised(part.type, "build", part.address, error)) from error
         reads.extend((index[part.address], tie) for tie in mechanics.reads)
         applies.extend((index[part.address], tie) for tie in mechanics.applies)
         constants.extend(mechanics.constants)
@@ -80,7 +82,7 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
     for part in model.parts:
         if "build" in part.type.functions and part.address not in done:
             build(part)
-    compiled = _compiled(spec)
+    compiled = _compiled(spec, {str(part.mark): part for part in model.parts})
     return Assembly(spec, compiled, tuple(reads), tuple(applies), tuple(of(compiled) for of in constants))
 
 
@@ -93,14 +95,20 @@ def body_order(model: Model) -> list[tuple[Part, Part]]:
     segments = {part.address: part for part in model.parts if part.type.frames}
     joints = [part for part in model.parts if {"parent", "child"} <= set(part.attachments)]
     carried: dict[str, Part] = {}
+    children_of_ground: set[str] = set()
     for joint in joints:
         child = _owner(joint.attachments["child"])
+        if child == WORLD:
+            rule = "it would carry the ground; exchange parent and child"
+            faults.add(f"{rule}.", joint.mark, joint.address)
+            children_of_ground.add(_owner(joint.attachments["parent"]))
+            continue
         if child in carried:
             rule = f"{child} is carried by {carried[child].address} and by {joint.address}"
             faults.add(f"{rule}; a segment has one joint above it.", joint.mark, joint.address)
         carried.setdefault(child, joint)
     for address, segment in segments.items():
-        if address not in carried:
+        if address not in carried and address not in children_of_ground:
             first = next(iter(segment.type.frames))
             rule = f"no joint carries it; add one with child: {address}.{first}"
             faults.add(f"{rule}.", segment.mark, address)
@@ -141,9 +149,14 @@ def _owner(frame: str) -> str:
     return frame if frame == WORLD else frame.rpartition(".")[0]
 
 
-def _compiled(spec: Any) -> Any:
+def _compiled(spec: Any, parts: Mapping[str, Part]) -> Any:
+    """MuJoCo's model; what it refuses is told at the part whose place it names (`info`)."""
     try:
         return spec.compile()
     except ValueError as error:
         text = " ".join(str(error).split())
-        raise InvalidSpec(f"MuJoCo refuses the mechanics: {text}") from error
+        part = next((part for mark, part in parts.items() if text.endswith(f" {mark}")), None)
+        said = re.sub(r"[ ,]*Element name .*$", "", text.removeprefix("Error: "))
+        said = re.sub(r"^\w+ '.*?' \(id = \d+\): ", "", said)
+        rule = f"MuJoCo refuses this: {said}; correct its numbers, or what its component builds."
+        raise InvalidSpec(Fault(rule, part.mark, part.address) if part else Fault(rule)) from error

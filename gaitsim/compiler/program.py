@@ -107,7 +107,8 @@ class Program:
             free = self.model.free[number.free] if number.free is not None else None
             low = free.low if free else self.model.values()[connection.delay]
             if low < step * (1 - 1e-9):
-                rule = f"{low:g} s is shorter than one step of {step:g} s; write 0 s or a longer delay"
+                move = f"begin tune at {step:g} s or above" if free else "write 0 s or a longer delay"
+                rule = f"{low:g} s is shorter than one step of {step:g} s; {move}"
                 faults.add(f"{rule}.", number.mark, number.address)
             source = self.outputs.place(*self.port(connection.source))
             lines.append(DelayLine(source, connection.delay, connection.initial))

@@ -90,6 +90,15 @@ def function_of(cls: type[Component], name: str) -> Callable[..., Any]:
     return function
 
 
+def raised(component: Primitive, function: str, address: str, error: Exception) -> Fault:
+    """What a component's function raised, at the line where it did."""
+    said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    hint = "" if said.endswith("?") else "; mend this line."
+    if isinstance(error, AttributeError) and error.name and error.obj is not None:
+        hint = f". {did_you_mean(error.name, [name for name in dir(error.obj) if not name.startswith('_')])}"
+    return Fault(f"{function} raised {said}{hint}", _mark_of(error, component.source, component.shown), address)
+
+
 def _mark_of(error: Exception, source: str, file: str) -> Mark:
     trace = error.__traceback__
     line = 0

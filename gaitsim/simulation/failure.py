@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 
 from gaitsim.compiler.program import Floats, Program
+from gaitsim.model import Part
 from gaitsim.parts.load import function_of
 from gaitsim.simulation.view import View, views
 
@@ -32,14 +33,15 @@ def of_component(
 
 def of_exception(program: Program, part: int, stage: str, step: int, error: Exception) -> str:
     """An exception that a component raised, with its line."""
-    lines = [
-        frame.lineno
-        for frame in traceback.extract_tb(error.__traceback__)
-        if frame.filename == program.model.parts[part].type.shown
-    ]
-    place = f"{program.model.parts[part].type.shown}:{lines[-1]}" if lines else stage
+    return raised_in(program.model.parts[part], stage, _when(program, step), error)
+
+
+def raised_in(part: Part, function: str, moment: str, error: Exception) -> str:
+    """An exception that a part's function raised at a moment, with its line."""
+    lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == part.type.shown]
+    place = f"{part.type.shown}:{lines[-1]}" if lines else function
     said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    return f"{_who(program, part)} raised in {stage} at {_when(program, step)} ({place}): {said}"
+    return f"{part.address} ({part.type.reference}) raised in {function} at {moment} ({place}): {said}"
 
 
 def of_values(program: Program, part: int, stage: str, step: int, u: Floats, x: Floats, y: Floats) -> str:

@@ -12,15 +12,31 @@ from typing import Any, Literal
 import numpy as np
 
 from gaitsim.compiler.program import Floats, Program, measures
-from gaitsim.errors import InvalidSpec, SimulationFailed
-from gaitsim.model import Model, metric_names
+from gaitsim.errors import InvalidComponent, InvalidSpec, SimulationFailed
+from gaitsim.model import Model, Part, metric_names
 from gaitsim.parts.load import function_of
 from gaitsim.simulation.ending import Ending
+from gaitsim.simulation.failure import raised_in
 from gaitsim.simulation.outcome import Outcome, Trajectory
 from gaitsim.simulation.python_loop import Normal
 from gaitsim.simulation.view import views
 
 Mode = Literal["rapid", "normal"]
+
+
+class _Raised(Exception):
+    """A measure or an objective raised; the cause says what."""
+
+    def __init__(self, part: Part, function: str) -> None:
+        super().__init__(part.address, function)
+        self.part, self.function = part, function
+
+
+def _called(part: Part, function: str, *arguments: Any) -> None:
+    try:
+        function_of(part.type.cls, function)(*arguments)
+    except Exception as error:
+        raise _Raised(part, function) from error
 
 
 @dataclass
@@ -57,20 +73,32 @@ class Simulator:
             values = self.model.values(candidate)
             with np.errstate(all="ignore" if self.mode == "rapid" else "warn"):
                 ending: Ending = self._loop.run(values, steps, recorded)
-        except (SimulationFailed, InvalidSpec) as error:
+        except (SimulationFailed, InvalidSpec, InvalidComponent) as error:
             # The spec's own numbers were checked: here only a candidate makes an invalid model.
             wall = time.perf_counter() - began
             return Outcome("failed", str(error), 0, simulate.step, {}, None, wall)
-        metrics = {} if ending.failure else self._metrics(ending)
-        score = None if ending.failure else self._score(metrics, values)
+        metrics, score, failure = self._judged(ending, values)
         status, reason = "completed", ""
-        if ending.failure:
-            status, reason = "failed", ending.failure
+        if failure:
+            status, reason = "failed", failure
         elif ending.stopped_by is not None:
             status, reason = "stopped", self.model.parts[ending.stopped_by].address
         trajectory = self._trajectory(ending.record) if ending.record is not None else None
         wall = time.perf_counter() - began
         return Outcome(status, reason, ending.steps, simulate.step, metrics, score, wall, trajectory)
+
+    def _judged(self, ending: Ending, values: Sequence[float]) -> tuple[dict[str, float], float | None, str | None]:
+        """Metrics and score, or why there are none."""
+        if ending.failure:
+            return {}, None, ending.failure
+        try:
+            metrics = self._metrics(ending)
+            return metrics, self._score(metrics, values), None
+        except _Raised as error:
+            part, function = error.part, error.function
+            cause = error.__cause__
+            assert isinstance(cause, Exception)
+            return {}, None, raised_in(part, function, "the end", cause)
 
     def _metrics(self, ending: Ending) -> dict[str, float]:
         found: dict[str, float] = {}
@@ -78,7 +106,7 @@ class Simulator:
         for i, part in measures(self.model):
             m = SimpleNamespace(**dict.fromkeys(part.type.metrics, math.nan))
             p, _, x, _ = views(self.program, i, ending.p, nothing, ending.x, nothing)
-            function_of(part.type.cls, "finish")(p, x, m)
+            _called(part, "finish", p, x, m)
             found |= {name: float(getattr(m, own)) for own, name in metric_names(part).items()}
         return found
 
@@ -94,7 +122,7 @@ class Simulator:
         numbers = {name: np.float64(values[part.numbers[name]]) for name in part.type.parameters}
         inputs = {n: np.float64(v) for n, v in (defaults | constants | wired).items()}
         y = SimpleNamespace(cost=math.nan)
-        function_of(part.type.cls, "output")(SimpleNamespace(**numbers), SimpleNamespace(**inputs), None, y)
+        _called(part, "output", SimpleNamespace(**numbers), SimpleNamespace(**inputs), None, y)
         cost = float(y.cost)
         return cost if math.isfinite(cost) else None
 

@@ -115,13 +115,16 @@ def test_a_delay_of_zero_is_none(mode: str) -> None:
 
 
 @pytest.mark.parametrize(
-    ("delay", "said"),
-    [("delay: 0.5 ms", "0.0005 s"), (TUNED.replace("[1 ms", "[0 s"), "0 s")],
+    ("delay", "said", "move"),
+    [
+        ("delay: 0.5 ms", "0.0005 s", "write 0 s or a longer delay"),
+        (TUNED.replace("[1 ms", "[0 s"), "0 s", "begin tune at 0.001 s or above"),
+    ],
     ids=["fixed", "tuned"],
 )
-def test_a_delay_shorter_than_a_step_is_refused(delay: str, said: str) -> None:
+def test_a_delay_shorter_than_a_step_is_refused(delay: str, said: str, move: str) -> None:
     with pytest.raises(InvalidSpec) as caught:
         Simulator(written(SPEC.replace("delay: 7 ms", delay)))
     (fault,) = caught.value.faults
     assert fault.address == "relay.signal.delay"
-    assert fault.message == (f"{said} is shorter than one step of 0.001 s; write 0 s or a longer delay.")
+    assert fault.message == f"{said} is shorter than one step of 0.001 s; {move}."

@@ -82,8 +82,7 @@ def test_what_mujoco_refuses_is_named_by_its_line_in_the_spec() -> None:
     # Thicker than long: an inertia that no body has.
     with pytest.raises(InvalidSpec) as caught:
         Simulator(written(BODIES, [("upper.thickness", "0.9 m")]))
-    assert "MuJoCo refuses the mechanics: Error: inertia must satisfy A + B >= C" in str(caught.value)
-    assert "Element name 'upper', id 1, spec.yaml:3:3" in str(caught.value)
+    assert str(caught.value).startswith("spec.yaml:3:3: upper: MuJoCo refuses this: inertia must satisfy A + B >= C")
 
 
 @pytest.mark.parametrize(

@@ -1,0 +1,13 @@
+from gaitsim.component import Component, Frame, Parameter
+
+
+class Block(Component):
+    """A block."""
+
+    mass = Parameter("kg", "Mass.", bounds=(1e-6, 1000))
+    top = Frame("The upper end.")
+
+    @staticmethod
+    def build(p, mj):
+        mj.bdy(mass=p.mass, center_of_mass=(0, 0, -0.1), inertia=(0.1, 0.1, 0.1))
+        mj.frame("top", (0, 0, 0))
