@@ -185,7 +185,7 @@ def _with(
         keys.setdefault(word, mark)
     else:
         _put(entries, keys, word, value, mark)
-    return Mapping(entries, keys, ground.mark, ground.swapped)
+    return Mapping(entries, keys, ground.mark, _swapped(ground, Mapping(entries, keys, mark)))
 
 
 def _said(value: bool | float | str | None) -> str:

@@ -15,21 +15,21 @@ class Mujoco(Component):
         choices=("time_constant", "stiffness"),
         default="time_constant",
     )
-    radius = Parameter("m", "Radius of the sphere.", bounds=(1e-3, 1))
+    radius = Parameter("m", "Radius of the sphere.", default=0.02, bounds=(1e-3, 1), source="definition: a choice")
     time_constant = Parameter(
         "s", "First number of solref.", default=0.02, bounds=(1e-6, 10), source="definition: MuJoCo's default"
     )
     damping_ratio = Parameter(
         "1", "Second number of solref.", default=1, bounds=(1e-3, 100), source="definition: MuJoCo's default"
     )
-    stiffness = Parameter(
+    reference_stiffness = Parameter(
         "1/s^2",
         "K: minus the first number of a direct solref.",
         default=1e4,
         bounds=(1, 1e9),
         source="definition: a choice",
     )
-    damping = Parameter(
+    reference_damping = Parameter(
         "1/s",
         "B: minus the second number of a direct solref; critical at 2 sqrt(K).",
         default=200,
@@ -83,7 +83,7 @@ class Mujoco(Component):
             center,
             p.radius,
             friction=p.friction,
-            solref=(-p.stiffness, -p.damping) if direct else (p.time_constant, p.damping_ratio),
+            solref=(-p.reference_stiffness, -p.reference_damping) if direct else (p.time_constant, p.damping_ratio),
             solimp=(p.impedance_low, p.impedance_high, p.impedance_width, p.impedance_middle, p.impedance_power),
         )
         mj.read("touch", touch, "sensordata")

@@ -78,6 +78,8 @@ class Geyer2003(Component):
     tendon_strain_now = Output("1", "Strain of the tendon, eps.")
     tendon_energy = Output("J", "Elastic energy in the tendon, F_max l_rest eps^3 / (3 eps_ref^2).")
 
+    elastic_energy = Output("J", "All elastic energy: that of the tendon.")
+
     @staticmethod
     def start(p, u, x):
         x.length = u.path_length - p.tendon_slack_length
@@ -92,6 +94,7 @@ class Geyer2003(Component):
         y.normalized_force = (strain / p.tendon_strain) ** 2
         y.force = p.max_isometric_force * y.normalized_force
         y.tendon_energy = y.force * strain * p.tendon_slack_length / 3
+        y.elastic_energy = y.tendon_energy
         isometric = u.activation_level * force_length(y.normalized_fiber_length, p.width)
         ratio = y.normalized_force / isometric
         y.normalized_fiber_velocity = velocity_from_force(ratio, p.eccentric_force, p.curvature)

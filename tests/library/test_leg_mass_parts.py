@@ -243,9 +243,9 @@ SOLREF = {
     ".005 1": ", time_constant: 5 ms",
     ".02 .5": ", damping_ratio: 0.5",
     ".02 .1": ", damping_ratio: 0.1",
-    "-100000 -1000": ", law: stiffness, stiffness: 1e5 1/s^2, damping: 1000 1/s",
-    "-10000 -200": ", law: stiffness, stiffness: 1e4 1/s^2, damping: 200 1/s",
-    "-10000 -20": ", law: stiffness, stiffness: 1e4 1/s^2, damping: 20 1/s",
+    "-100000 -1000": ", law: stiffness, reference_stiffness: 1e5 1/s^2, reference_damping: 1000 1/s",
+    "-10000 -200": ", law: stiffness, reference_stiffness: 1e4 1/s^2, reference_damping: 200 1/s",
+    "-10000 -20": ", law: stiffness, reference_stiffness: 1e4 1/s^2, reference_damping: 20 1/s",
 }
 
 
