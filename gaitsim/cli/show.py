@@ -8,7 +8,8 @@ from typing import Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, read_model
+from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust
+from gaitsim.cli.source import open_source
 
 
 def show(
@@ -17,6 +18,8 @@ def show(
     parameters: Annotated[bool, typer.Option("--parameters", help="Every number, with unit and source.")] = False,
     connections: Annotated[bool, typer.Option("--connections", help="Every signal's way.")] = False,
     mjcf: Annotated[bool, typer.Option("--mjcf", help="The mechanics as MuJoCo XML.")] = False,
+    start: Annotated[bool, typer.Option("--start", help="Ignore tuned values beside the spec.")] = False,
+    trust: Trust = False,
     settings: Set = None,
     library: Libraries = None,
     json: Json = False,
@@ -27,7 +30,8 @@ def show(
     """
     from gaitsim.results.listing import connection_rows, parameter_rows, part_rows
 
-    model = read_model(spec, settings, library)
+    source = open_source(spec, settings, library, tuned=not start, trusted=trust)
+    model = source.model()
     data: dict[str, Any] = {}
     if tree or not (parameters or connections or mjcf):
         data["tree"] = part_rows(model)
@@ -39,7 +43,7 @@ def show(
         from gaitsim.compiler.mjcf import assemble
 
         data["mjcf"] = assemble(model, model.values()).xml
-    for notice in model.notices:
+    for notice in (*source.notices, *model.notices):
         console.say(notice)
     if json:
         console.give_json(data)
