@@ -33,7 +33,7 @@ def _swapped(base: Mapping, over: Mapping) -> frozenset[str]:
     old, new = base.entries.get("use"), over.entries.get("use")
     if old is None or new is None or plain(old) == plain(new):
         return base.swapped | over.swapped
-    return base.swapped | frozenset(base.entries)
+    return base.swapped | over.swapped | frozenset(base.entries)
 
 
 def with_parents(
@@ -148,7 +148,9 @@ def _sectioned(spec: Mapping, words: tuple[str, ...]) -> tuple[str, ...]:
         return first, ".".join(rest)
     if first in _SECTIONS or first in spec.entries or first in _SEARCHED:
         return words
-    measures = spec.entries.get("measures")
+    masks, measures = spec.entries.get("parameters"), spec.entries.get("measures")
+    if not rest and isinstance(masks, Mapping) and first in masks.entries:
+        return "parameters", first, "default"
     found = isinstance(measures, Mapping) and first in measures.entries
     return ("measures" if found else "parts", *words)
 

@@ -62,8 +62,9 @@ def spec_schema(library: Library) -> dict[str, Any]:
         schema["properties"][section]["additionalProperties"] = {"$ref": "#/$defs/part"}
     schema["properties"]["objective"] = {"$ref": "#/$defs/part"}
     # What a spec lacks may stand in the one that it extends.
-    whole = schema.pop("required")
-    schema["anyOf"] = [{"required": whole}, {"required": ["gaitsim", "extends"]}]
+    own = {"required": schema.pop("required")}
+    own["properties"] = {"simulate": {"required": definitions["SimulateSection"].pop("required")}}
+    schema["anyOf"] = [own, {"required": ["gaitsim", "extends"]}]
     schema["properties"]["initial"]["additionalProperties"] = {"$ref": "#/$defs/value"}
     return {"$schema": "https://json-schema.org/draft/2020-12/schema", **schema, "title": "gaitsim spec"}
 

@@ -73,8 +73,9 @@ def test_segments_have_the_masses_of_the_table(tmp_path: Path) -> None:
 
 
 def test_lengths_add_up_to_the_height_of_the_hip() -> None:
-    assert 0.039 + 0.246 + 0.245 == pytest.approx(0.530)
-    assert 0.530 + 0.288 == pytest.approx(0.818)
+    trunk, thigh, shank = (WINTER[name][1] for name in ("trunk", "thigh", "shank"))
+    assert 0.039 + shank + thigh == pytest.approx(0.530)
+    assert 0.530 + trunk == pytest.approx(0.818)
 
 
 STOP = {"lower": 0.1, "upper": 2.0, "stiffness": 1000.0, "stop_damping": 10.0}
