@@ -22,7 +22,9 @@ def tuned_path(spec: Path) -> Path:
 def write_tuned(spec: Path, result: str, score: float, values: Map[str, float], units: Map[str, str]) -> Path:
     """Write the tuned values of a spec; the path. Errors: OSError."""
     path = tuned_path(spec)
-    said = {address: f"{value!r} {units[address]}".removesuffix(" 1") for address, value in values.items()}
+    said = {
+        address: value if units[address] == "1" else f"{value!r} {units[address]}" for address, value in values.items()
+    }
     text = dump({"about": _ABOUT, "result": result, "score": score, "values": said})
     draft = path.with_name(f"{path.name}.partial")
     draft.write_text(text, encoding="utf-8")

@@ -13,7 +13,7 @@ from gaitsim.spec.inheritance import override
 from gaitsim.spec.resolve import read_spec, resolve
 
 ROOT = Path(__file__).resolve().parents[2]
-SPECS = sorted((ROOT / "specs").glob("*.yaml"))
+SPECS = sorted(p for p in (ROOT / "specs").glob("*.yaml") if not p.stem.endswith(".tuned"))
 OWN = Path(__file__).parent / "specs"
 HOPPER = ROOT / "specs" / "hopping_geyer2003.yaml"
 
