@@ -120,6 +120,7 @@ class Model:
     objective: Objective | None
     simulate: Simulate
     notices: tuple[str, ...] = ()
+    dropped: frozenset[Mark] = frozenset()  # words of the spec that a swapped-in part lacks
 
     @property
     def start(self) -> list[float]:

@@ -52,7 +52,7 @@ def optimize(
 
     gaitsim optimize specs/hopping_geyer2003.yaml --resume
     """
-    from gaitsim.cli.tuning import Request, begun, resumed
+    from gaitsim.cli.beginning import Request, begun, resumed
     from gaitsim.cli.workplace import Workplace
     from gaitsim.errors import Usage
     from gaitsim.results.manifest import is_result
@@ -60,7 +60,17 @@ def optimize(
     if adopt and is_result(spec):
         raise Usage(f"--adopt writes beside a spec, and {spec} is a result; name the spec, with --resume.")
     request = Request(
-        spec, algorithm, population, generations, seed, mode.value if mode else None, smoke, origin, settings, library, trust
+        spec=spec,
+        algorithm=algorithm,
+        population=population,
+        generations=generations,
+        seed=seed,
+        mode=mode.value if mode else None,
+        smoke=smoke,
+        origin=origin,
+        settings=settings,
+        library=library,
+        trust=trust,
     )
     workplace = Workplace(workers, cluster, scheduler, scheduler_file)
     workplace.check()

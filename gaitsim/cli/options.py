@@ -13,7 +13,9 @@ if TYPE_CHECKING:
     from gaitsim.parts.find import Library
     from gaitsim.spec.document import Mapping
 
-Spec = Annotated[Path, typer.Argument(metavar="SPEC", help="A spec, such as specs/hopping_geyer2003.yaml, or a result folder.")]
+Spec = Annotated[
+    Path, typer.Argument(metavar="SPEC", help="A spec, such as specs/hopping_geyer2003.yaml, or a result folder.")
+]
 Set = Annotated[
     list[str] | None,
     typer.Option("--set", metavar="ADDRESS=VALUE", help="Override a value of the spec; repeatable."),

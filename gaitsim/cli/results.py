@@ -25,7 +25,8 @@ def list_results(
 
     Example: gaitsim results list
     """
-    rows = [_summary(path.parent) for path in sorted(folder.glob("*/manifest.json")) if path.parent.suffix != ".partial"]
+    made = [path.parent for path in sorted(folder.glob("*/manifest.json"))]
+    rows = [_summary(path) for path in made if path.suffix != ".partial"]
     rows.sort(key=lambda row: str(row["created"]))
     if json:
         console.give_json({"results": rows})

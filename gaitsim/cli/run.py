@@ -74,7 +74,7 @@ def run(
         save_trajectory(out, outcomes[0])
     folder = None
     if not no_save:
-        folder = _saved(source, models[0], mode, rows, outcomes)
+        folder = _saved(source, models, mode, rows, outcomes)
     _report(rows, outcomes, models, mode, folder, json)
     for row, outcome in zip(rows, outcomes, strict=True):
         if outcome.status == "failed":
@@ -104,14 +104,14 @@ def _all(models: Sequence[Model], mode: ModeName) -> list[Outcome]:
 
 
 def _saved(
-    source: Source, model: Model, mode: ModeName, rows: Sequence[Variant], outcomes: Sequence[Outcome]
+    source: Source, models: Sequence[Model], mode: ModeName, rows: Sequence[Variant], outcomes: Sequence[Outcome]
 ) -> Path:
     from gaitsim.compiler.mjcf import assemble
     from gaitsim.results.store import save_run
 
     table = [(row.settings, outcome) for row, outcome in zip(rows, outcomes, strict=True)]
-    xml = assemble(model, model.values()).xml
-    return save_run(RESULTS, source.bundle(), model, xml, mode.value, table)
+    xml = assemble(models[0], models[0].values()).xml
+    return save_run(RESULTS, source.bundle(models), models[0], xml, mode.value, table)
 
 
 def _report(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from collections.abc import Mapping as Map
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -31,11 +32,11 @@ class Source:
 
         return resolve(document or self.document, self.library, self.name).started_at(self.starts)
 
-    def bundle(self) -> Bundle:
-        """The source as files, once its models are resolved."""
+    def bundle(self, models: Iterable[Model]) -> Bundle:
+        """The source as files, given the models made of it."""
         from gaitsim.results.bundle import bundled
 
-        return bundled(self.document, self.name, self.library, self.starts)
+        return bundled(self.document, self.name, self.library, self.starts, models)
 
 
 def source_of_spec(spec: Path, settings: list[str] | None, folders: list[Path] | None, tuned: bool) -> Source:

@@ -6,8 +6,11 @@ import json
 import logging
 import os
 import re
+import signal
 import socket
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from multiprocessing import resource_tracker
 from pathlib import Path
 from typing import Any
 
@@ -31,14 +34,15 @@ def local_client(workers: int) -> Any:
     _quiet()
     dask.config.set({"distributed.scheduler.allowed-failures": 1})
     try:
-        cluster = LocalCluster(
-            n_workers=workers,
-            threads_per_worker=1,
-            host="127.0.0.1",
-            dashboard_address=None,
-            silence_logs=logging.CRITICAL,
-        )
-        return Client(cluster, set_as_default=False)
+        with _deaf_children():
+            cluster = LocalCluster(
+                n_workers=workers,
+                threads_per_worker=1,
+                host="127.0.0.1",
+                dashboard_address=None,
+                silence_logs=logging.CRITICAL,
+            )
+            return Client(cluster, set_as_default=False)
     except (OSError, RuntimeError, TimeoutError) as error:
         move = "use --workers 0 to do without"
         raise ClusterError(f"{workers} workers cannot be started on this machine ({error}); {move}.") from error
@@ -77,6 +81,20 @@ def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Calla
 def cores() -> int:
     """How many processors this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+
+
+@contextmanager
+def _deaf_children() -> Iterator[None]:
+    """Ctrl-C reaches every process of a terminal; what is started here, now or later, leaves it to this one.
+
+    Threads inherit that the signal is blocked, and the workers that they start and restart do so from them.
+    """
+    resource_tracker.ensure_running()  # by itself it would be started later, and let the signal through
+    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 
 
 def _address_in(file: Path) -> str:

@@ -6,19 +6,14 @@ import math
 import socket
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import Future
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from threading import Thread
-from typing import TypeVar
 
 from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
 from gaitsim.parts.find import shown
 from gaitsim.results.bundle import Bundle, bundle_model
 from gaitsim.simulation.run import Mode, Simulator
-
-Result = TypeVar("Result")
 
 
 @dataclass(frozen=True)
@@ -61,23 +56,6 @@ def forget(bundle: Bundle, mode: Mode) -> None:
     _benches.pop((bundle.digest, mode), None)
 
 
-def in_thread(call: Callable[[], Result], limit: float | None = None) -> Result:
-    """What a call returns, made in a thread of its own: native code cannot be interrupted, waiting for it can.
-
-    Errors: TimeoutError after `limit` seconds; the thread goes on.
-    """
-    answer: Future[Result] = Future()
-
-    def work() -> None:
-        try:
-            answer.set_result(call())
-        except BaseException as error:
-            answer.set_exception(error)
-
-    Thread(target=work, daemon=True).start()
-    return answer.result(limit)
-
-
 class Serial:
     """Evaluates one candidate after the other, in this process."""
 
@@ -87,14 +65,8 @@ class Serial:
     def __call__(self, candidates: Sequence[Candidate]) -> Iterator[tuple[Evaluation, float, str]]:
         for candidate in candidates:
             began = time.perf_counter()
-            found = self._verdict(candidate.x)
+            found = self._bench.verdict(candidate.x)
             yield Evaluation(candidate, found), time.perf_counter() - began, socket.gethostname()
-
-    def _verdict(self, x: Sequence[float]) -> Verdict:
-        # A debugger wants the main thread, and plain Python can be interrupted there.
-        if self._bench.simulator.mode == "normal":
-            return self._bench.verdict(x)
-        return in_thread(lambda: self._bench.verdict(x))
 
     def close(self) -> None:
         """There is nothing to close."""

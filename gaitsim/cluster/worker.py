@@ -11,12 +11,13 @@ from functools import partial
 
 from distributed import Worker, WorkerPlugin, get_worker
 
-from gaitsim.cluster.evaluate import bench_of, forget, in_thread
+from gaitsim.cluster.evaluate import bench_of, forget
 from gaitsim.cluster.fingerprint import differences, fingerprint
 from gaitsim.errors import GaitsimError
 from gaitsim.optimization.evaluation import Candidate, Evaluation
 from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.run import Mode
+from gaitsim.simulation.waiting import in_thread
 
 _bundles: dict[str, Bundle] = {}
 
@@ -29,7 +30,7 @@ class BundlePlugin(WorkerPlugin):  # type: ignore[misc]
         # Each search has its own: one that ends does not take the bundle from another.
         self.name = f"gaitsim-{uuid.uuid4()}"
 
-    def setup(self, worker: Worker) -> None:
+    def setup(self, worker: Worker) -> None:  # noqa: ARG002 (Dask passes it by name)
         _bundles[self.bundle.digest] = self.bundle
 
 
@@ -76,7 +77,7 @@ def evaluate_chunk(chunk: Chunk) -> Done:
 def _evaluated(chunk: Chunk) -> tuple[list[tuple[Evaluation, float]], bool]:
     bundle = _bundles[chunk.digest]
     bench = bench_of(bundle, chunk.mode)
-    found = []
+    found: list[tuple[Evaluation, float]] = []
     for candidate in chunk.candidates:
         began = time.perf_counter()
         try:

@@ -17,7 +17,6 @@ from gaitsim.errors import Fault, GaitsimError, Mark
 from gaitsim.optimization.evaluation import Candidate, Evaluation, evaluation_of
 from gaitsim.optimization.problem import hash_of
 
-
 _MOVE = "restore it from a copy, or start a new search with --from"
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Iterable
 from collections.abc import Mapping as Map
 from dataclasses import dataclass
 from pathlib import Path
@@ -11,6 +12,7 @@ from pathlib import Path
 from gaitsim.model import Model
 from gaitsim.parts.find import Library
 from gaitsim.spec.document import Mapping, dump, parse, plain
+from gaitsim.spec.inheritance import without_marked
 from gaitsim.spec.resolve import resolve
 
 SPEC, COMPONENTS, START = "spec.yaml", "components", "start.json"
@@ -39,9 +41,15 @@ class Bundle:
             target.write_text(text, encoding="utf-8")
 
 
-def bundled(document: Mapping, name: str, library: Library, starts: Map[str, float]) -> Bundle:
-    """The bundle of a spec that has been resolved with this library; `starts` are tuned values by address."""
-    files = {SPEC: dump(plain(document))}
+def bundled(
+    document: Mapping, name: str, library: Library, starts: Map[str, float], models: Iterable[Model]
+) -> Bundle:
+    """The bundle of a spec and its resolved models; `starts` are tuned values by address.
+
+    What every model dropped when a part was swapped is left out: the text no longer says who had it.
+    """
+    dropped = frozenset.intersection(*(model.dropped for model in models))
+    files = {SPEC: dump(plain(without_marked(document, dropped)))}
     if starts:
         files[START] = json.dumps(dict(starts), indent=2) + "\n"
     for reference, component in library.used().items():

@@ -14,7 +14,6 @@ from typing import Any
 
 from gaitsim.errors import GaitsimError
 
-
 _WRITING = 5.0  # seconds after which a lock that names no process is not still being written
 _BEGUN = "another process began to write this result"
 

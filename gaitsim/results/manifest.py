@@ -64,7 +64,8 @@ def read_manifest(folder: Path) -> dict[str, Any]:
         name, digest = str(manifest["name"]), str(manifest["digest"])
         manifest["kind"], manifest["status"]
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise BadResult(Fault(f"this manifest cannot be read ({error}); restore it from a copy.", Mark(str(path)))) from error
+        rule = f"this manifest cannot be read ({error}); restore it from a copy."
+        raise BadResult(Fault(rule, Mark(str(path)))) from error
     try:
         found = read_bundle(folder, name).digest
     except OSError as error:

@@ -6,7 +6,8 @@ import json
 import math
 import secrets
 import shutil
-from collections.abc import Mapping as Map, Sequence
+from collections.abc import Mapping as Map
+from collections.abc import Sequence
 from datetime import date
 from pathlib import Path
 from typing import Any

@@ -16,6 +16,7 @@ from gaitsim.simulation import native_loop as native
 from gaitsim.simulation.body import Body
 from gaitsim.simulation.ending import Ending
 from gaitsim.simulation.failure import of_component
+from gaitsim.simulation.waiting import interruptible
 
 _STAGES = {native.START: "start", native.OUTPUT: "output", native.UPDATE: "update"}
 
@@ -116,21 +117,19 @@ class Rapid:
         u, x, y = (np.zeros(layout.size) for layout in (program.inputs, program.states, program.outputs))
         buffer = np.zeros(int(np.sum(tables.line_size)))
         record = np.zeros((steps if recorded else 0, y.size))
-        status, part, stage, done = native.simulate(
-            steps,
-            program.model.simulate.step,
-            body.model._address,
-            body.data._address,
-            body.array("qpos"),
-            body.array("qvel"),
-            tables,
-            p,
-            u,
-            x,
-            y,
-            buffer,
-            record,
-        )
+        model, data = body.model, body.data  # held by the call below for as long as it computes
+
+        def compute() -> tuple[int, int, int, int]:
+            places = model._address, data._address, body.array("qpos"), body.array("qvel")
+            dt = program.model.simulate.step
+            found: tuple[int, int, int, int] = native.simulate(steps, dt, *places, tables, p, u, x, y, buffer, record)
+            return found
+
+        try:
+            status, part, stage, done = interruptible(compute)
+        except KeyboardInterrupt:
+            self.body = Body(program)  # the old one is still computed in
+            raise
         failure, stopped_by = None, None
         if status in (native.RAISED, native.NOT_FINITE):
             failure = of_component(program, part, _STAGES[stage], done, p, u, x, y)

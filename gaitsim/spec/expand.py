@@ -42,6 +42,7 @@ class Expansion:
     inputs: dict[str, list[str]] = field(default_factory=dict)
     frames: dict[str, str] = field(default_factory=dict)
     notices: list[str] = field(default_factory=list)
+    dropped: set[Mark] = field(default_factory=set)
     broken: set[str] = field(default_factory=set)
 
     def __post_init__(self) -> None:
@@ -135,6 +136,7 @@ class Expansion:
         """The entry without what a swapped-in part lacks; other unknown words are faults."""
         dropped = [word for word in node.entries if word in swapped and word not in (*found.words, *_STRUCTURE)]
         self.notices += [f"{where.address}: {found.reference} has no {word}; dropped" for word in dropped]
+        self.dropped |= {node.keys[word] for word in dropped}
         kept = without(node, *dropped)
         return respelled(kept, found.words, f"{found.reference} has no", self.faults, where.address, more=_STRUCTURE)
 

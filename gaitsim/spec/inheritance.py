@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from pathlib import Path
 
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, Usage
@@ -131,6 +131,16 @@ def without(node: Mapping, *words: str) -> Mapping:
     """The mapping without some of its keys."""
     entries = {name: inner for name, inner in node.entries.items() if name not in words}
     return Mapping(entries, {name: node.keys[name] for name in entries}, node.mark, node.swapped)
+
+
+def without_marked(node: Node, marks: Set[Mark]) -> Node:
+    """The node without the entries whose keys stand at these places."""
+    if isinstance(node, Sequence):
+        return Sequence(tuple(without_marked(item, marks) for item in node.items), node.mark)
+    if not isinstance(node, Mapping):
+        return node
+    kept = {key: without_marked(inner, marks) for key, inner in node.entries.items() if node.keys[key] not in marks}
+    return Mapping(kept, {key: node.keys[key] for key in kept}, node.mark, node.swapped)
 
 
 def _words(address: str, said: str) -> tuple[str, ...]:

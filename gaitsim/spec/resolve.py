@@ -69,6 +69,7 @@ def resolve(document: Mapping, library: Library, name: str) -> Model:
         objective=objective,
         simulate=Simulate(**head.simulate.model_dump()),
         notices=tuple(expansion.notices + library.notices),
+        dropped=frozenset(expansion.dropped),
     )
 
 

@@ -1,0 +1,202 @@
+"""How a search begins: from a spec in a new result folder, or where an old one ended."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
+
+from gaitsim.cli.source import Source, open_source, source_of_spec
+from gaitsim.cli.tuning import Tuning
+from gaitsim.errors import Fault, InvalidSpec, Mark, Usage, did_you_mean
+from gaitsim.optimization.algorithms import ALGORITHMS
+from gaitsim.optimization.journal import evaluations_in
+from gaitsim.results.bundle import SPEC, START, Bundle, bundle_model, read_bundle
+from gaitsim.results.manifest import BadResult, changed_versions, is_result, new_manifest, read_manifest
+from gaitsim.results.store import create_result
+from gaitsim.results.trust import check_trust
+from gaitsim.results.tuned import problem_of, read_tuned, tuned_path
+from gaitsim.simulation.run import Mode, Simulator
+from gaitsim.spec.schema import OptimizeSection, optimize_section
+
+_SMOKE = {"population": 4, "generations": 2}
+_LEAST = {"population": 2, "generations": 1, "seed": 0}
+
+
+@dataclass(frozen=True)
+class Request:
+    """What the command line asks for; None where it says nothing."""
+
+    spec: Path
+    algorithm: str | None
+    population: int | None
+    generations: int | None
+    seed: int | None
+    mode: str | None
+    smoke: bool
+    origin: str | None
+    settings: list[str] | None
+    library: list[Path] | None
+    trust: bool
+
+
+def begun(request: Request, root: Path) -> Tuning:
+    """A new search in a new result folder."""
+    if is_result(request.spec):
+        move = f"gaitsim optimize {request.spec} --resume, or SPEC --from {request.spec}"
+        raise Usage(f"{request.spec} is a result; to continue or to start from it: {move}")
+    source = source_of_spec(request.spec, request.settings, request.library, tuned=False)
+    source, notices = _started(source, request)
+    model = source.model()
+    if not model.free:
+        rule = "nothing is tuned in this spec"
+        move = "give a value bounds, such as gain: {value: 1, tune: [0, 5]}"
+        raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.spec))))
+    if model.objective is None:
+        move = "add one, such as objective: {use: objective/maximize, value: {from: a metric}}"
+        raise InvalidSpec(Fault(f"this spec has no objective; {move}.", Mark(str(request.spec))))
+    search = _search_of(source, request)
+    algorithm = ALGORITHMS[search["algorithm"]](problem_of(model), search["seed"], search["population"])
+    search["population"] = algorithm.population
+    mode: Mode = "normal" if request.mode == "normal" else "rapid"
+    simulator = Simulator(model, mode)
+    bundle = source.bundle([model])
+    manifest = new_manifest("optimize", bundle, mode, spec=str(request.spec), search=search, notices=notices)
+    folder = create_result(root, bundle, model, simulator.xml, manifest, {"evaluations.jsonl": ""})
+    return Tuning(folder, manifest, bundle, bundle_model(folder, bundle.name), [*model.notices, *notices])
+
+
+def resumed(request: Request, root: Path) -> Tuning:
+    """A search that was begun before: the folder named, or the newest one of the spec.
+
+    Errors: BadResult, DamagedJournal, Usage, InvalidSpec if the spec has changed.
+    """
+    _check_beside_resume(request)
+    folder = request.spec if is_result(request.spec) else _newest(request.spec, root)
+    manifest = read_manifest(folder)
+    if manifest["kind"] != "optimize":
+        raise BadResult(f"{folder}: this is the result of a run; only a search can be resumed.")
+    search = _recorded_search(folder, manifest)
+    changed = changed_versions(manifest)
+    if changed:
+        rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
+        raise BadResult(f"{folder}: {rule}; install those, or start a new search with --from {folder}.")
+    check_trust(folder, request.trust)
+    bundle = read_bundle(folder, str(manifest["name"]))
+    if not is_result(request.spec):
+        _check_same_spec(request, folder, bundle)
+    _check_same_search(request, search, str(manifest["mode"]))
+    done = max((e.candidate.generation for e in evaluations_in(folder)), default=0)
+    if request.generations is not None and request.generations < done:
+        raise Usage(f"--generations {request.generations}: {folder} has {done} generations already; ask for more.")
+    search["generations"] = request.generations or search["generations"]
+    model = bundle_model(folder, bundle.name)
+    return Tuning(folder, manifest | {"search": search}, bundle, model, [f"resuming {folder}"])
+
+
+def _check_beside_resume(request: Request) -> None:
+    """What a search that goes on cannot be told. Errors: Usage."""
+    if request.origin is not None or request.smoke:
+        option = "--smoke" if request.smoke else "--from"
+        raise Usage(f"{option} begins a new search, and --resume continues an old one; leave one out.")
+    if is_result(request.spec) and (request.settings or request.library):
+        option = "--set" if request.settings else "--library"
+        raise Usage(f"{option}: {request.spec} goes on with its own spec and components; leave it out.")
+    _check_least({"generations": request.generations})
+
+
+def _check_same_search(request: Request, search: dict[str, Any], mode: str) -> None:
+    """A search goes on as it was begun, but for its generations. Errors: Usage."""
+    for name in ("algorithm", "population", "seed"):
+        asked = getattr(request, name)
+        if asked is not None and asked != search[name]:
+            move = "leave it out, or start a new search"
+            raise Usage(f"--{name} {asked}: this search was begun with {search[name]}; {move}.")
+    if request.mode is not None and request.mode != mode:
+        raise Usage(f"--mode {request.mode}: this search was begun in {mode} mode; leave it out.")
+
+
+def _recorded_search(folder: Path, manifest: dict[str, Any]) -> dict[str, Any]:
+    """How a search was begun. Errors: BadResult."""
+    try:
+        found = OptimizeSection.model_validate(manifest["search"]).model_dump()
+        if found["algorithm"] not in ALGORITHMS or not isinstance(manifest["versions"], dict):
+            raise ValueError("no search of ours")
+        return found
+    except (KeyError, ValueError) as error:
+        rule = "what it says about its search cannot be read, so it was edited; restore it from a copy"
+        raise BadResult(Fault(f"{rule}.", Mark(str(folder / "manifest.json")))) from error
+
+
+def _check_least(numbers: Mapping[str, int | None]) -> None:
+    """Errors: Usage for a number that is too small."""
+    for name, number in numbers.items():
+        if number is not None and number < _LEAST[name]:
+            raise Usage(f"--{name} {number}: this is at least {_LEAST[name]}.")
+
+
+def _search_of(source: Source, request: Request) -> dict[str, Any]:
+    """Algorithm, population, generations and seed: the command line over the spec over defaults."""
+    section = optimize_section(source.document)
+    asked = {n: getattr(request, n) for n in ("algorithm", "population", "generations", "seed")}
+    smoke = _SMOKE if request.smoke else {}
+    found = section.model_dump() | smoke | {name: value for name, value in asked.items() if value is not None}
+    if found["algorithm"] not in ALGORITHMS:
+        hint = did_you_mean(found["algorithm"], ALGORITHMS)
+        raise Usage(f"--algorithm {found['algorithm']}: there is no such algorithm. {hint}")
+    _check_least({name: found[name] for name in _LEAST})
+    return found
+
+
+def _started(source: Source, request: Request) -> tuple[Source, list[str]]:
+    """The source started where `--from` says, and what matched."""
+    if request.origin is None:
+        return source, []
+    if request.origin == "tuned":
+        path = tuned_path(request.spec)
+        if not path.is_file():
+            raise Usage(f"--from tuned: there is no {path}; make it with optimize --adopt.")
+        where, values = str(path), read_tuned(path)[1]
+    else:
+        where = request.origin
+        if not is_result(Path(where)):
+            raise Usage(f"--from {where}: this is no result; write tuned, or a folder of gaitsim results list.")
+        values = dict(open_source(Path(where), None, None, trusted=request.trust).starts)
+    addresses = [f.address for f in source.model().free]
+    matched = [a for a in addresses if a in values]
+    if not matched:
+        known = ", ".join(values) or "nothing"
+        raise Usage(f"--from {request.origin}: none of its values ({known}) is tuned here.")
+    rest = [a for a in addresses if a not in values]
+    notice = f"start from {where}: {', '.join(matched)}" + (f"; not found there: {', '.join(rest)}" if rest else "")
+    return replace(source, starts={a: values[a] for a in matched}), [notice]
+
+
+def _newest(spec: Path, root: Path) -> Path:
+    """The newest search of a spec; whether it is damaged is seen when it is read."""
+    found = []
+    for path in root.glob(f"*-{spec.stem}-*/manifest.json"):
+        try:
+            manifest = json.loads(path.read_text(encoding="utf-8"))
+            if manifest["kind"] == "optimize" and manifest["name"] == spec.stem and path.parent.suffix != ".partial":
+                found.append((str(manifest["created"]), path.stat().st_mtime, path.parent))
+        except (OSError, ValueError, KeyError, TypeError):
+            continue
+    if not found:
+        raise BadResult(f"{root}: there is no search of {spec} to resume; start one without --resume.")
+    return max(found)[2]
+
+
+def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
+    """A search goes on only with the spec it began with."""
+    source = source_of_spec(request.spec, request.settings, request.library, tuned=False)
+    now = source.bundle([source.model()]).files
+    before = {path: text for path, text in bundle.files.items() if path != START}
+    changed = sorted(path for path in {*now, *before} if now.get(path) != before.get(path))
+    if changed:
+        words = ["spec.yaml (or its --set)" if path == SPEC else path for path in changed]
+        rule = f"what {folder} was begun with has changed since: {', '.join(words)}"
+        move = f"continue the old one: gaitsim optimize {folder} --resume; or start a new search with --from {folder}"
+        raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.spec))))
