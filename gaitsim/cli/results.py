@@ -99,6 +99,7 @@ def _summary(folder: Path) -> dict[str, Any]:
         manifest = json_text.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
         manifest = {}
+    manifest = manifest if isinstance(manifest, dict) else {}
     keys = ("kind", "status", "best_score", "evaluations", "created")
     known = {key: manifest.get(key) for key in keys}
     damaged = {"kind": known["kind"] or "?", "status": known["status"] or "damaged", "created": known["created"] or ""}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import json
 import logging
 import os
@@ -17,6 +18,7 @@ from typing import Any
 from gaitsim.errors import ExitCode, GaitsimError
 
 _PATIENCE = 15.0  # seconds until a scheduler must answer, and until it must have workers
+_GREETING = 5.0  # seconds until one that listens must show that it is a scheduler
 _ADDRESS = re.compile(r"(?:(?P<scheme>tcp|tls)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[^\s:/\[\]]+):(?P<port>\d{1,5})")
 
 
@@ -32,14 +34,16 @@ def local_client(workers: int) -> Any:
     from distributed import Client, LocalCluster
 
     _quiet()
-    dask.config.set({"distributed.scheduler.allowed-failures": 1})
+    dask.config.set({"distributed.scheduler.allowed-failures": 1, "distributed.scheduler.http.routes": []})
     try:
         with _deaf_children():
             cluster = LocalCluster(
                 n_workers=workers,
                 threads_per_worker=1,
                 host="127.0.0.1",
-                dashboard_address=None,
+                # None would open Dask's own port, 8787, with pages all the same.
+                dashboard_address="127.0.0.1:0",
+                scheduler_kwargs={"dashboard": False},
                 silence_logs=logging.CRITICAL,
             )
             return Client(cluster, set_as_default=False)
@@ -62,19 +66,14 @@ def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Calla
     _check_answer(host, port, place)
     if scheme == "tcp" and not _loopback(host):
         say(f"{address}: plain tcp lets anyone who reaches this port run code; use tls:// beyond this machine")
-    if scheme == "tls":
-        _check_certificates(place)
-    try:
-        client = Client(f"{scheme}://{host}:{port}", timeout=_PATIENCE, set_as_default=False)
-    except (OSError, TimeoutError, ValueError) as error:
-        rule = f"what answers there is no Dask scheduler, or one of another version ({error})"
-        raise ClusterError(f"{place}: {rule}; start one with: dask scheduler.") from error
+    address = f"{scheme}://{host}:{port}"
+    _check_protocol(address, place)
+    client = Client(address, timeout=_PATIENCE, set_as_default=False)
     try:
         client.wait_for_workers(1, timeout=_PATIENCE)
     except (OSError, TimeoutError) as error:
         client.close()
-        move = f"start some: dask worker {client.scheduler.address}"
-        raise ClusterError(f"{place}: the scheduler has no workers; {move}.") from error
+        raise ClusterError(f"{place}: the scheduler has no workers; start some: dask worker {address}.") from error
     return client
 
 
@@ -128,13 +127,25 @@ def _check_answer(host: str, port: int, place: str) -> None:
         raise ClusterError(f"{place}: no scheduler answers at {host}:{port} ({reason}); {move}.") from error
 
 
-def _check_certificates(place: str) -> None:
-    """Errors: ClusterError if Dask's configuration has none."""
+def _check_protocol(address: str, place: str) -> None:
+    """Who listens speaks Dask. A client that finds out by itself may never come back. Errors: ClusterError."""
     from distributed import Security
+    from distributed.comm import connect
 
-    if Security().get_connection_args("client").get("ssl_context") is None:
+    options = Security().get_connection_args("client")
+    if address.startswith("tls:") and options.get("ssl_context") is None:
         move = "name its files under distributed.comm.tls in Dask's configuration"
         raise ClusterError(f"{place}: tls needs a certificate, and none is configured; {move}.")
+
+    async def greet() -> None:
+        comm = await asyncio.wait_for(connect(address, timeout=_GREETING, **options), 2 * _GREETING)
+        await comm.close()
+
+    try:
+        asyncio.run(greet())
+    except Exception as error:  # what a stranger answers can break anything that reads it
+        rule = "what answers there is no Dask scheduler, or one of another version"
+        raise ClusterError(f"{place}: {rule}; start one: dask scheduler.") from error
 
 
 def _loopback(host: str) -> bool:
@@ -143,5 +154,6 @@ def _loopback(host: str) -> bool:
 
 def _quiet() -> None:
     """Workers come and go; what matters is said by us."""
-    for name in ("distributed", "distributed.worker", "distributed.nanny", "distributed.core", "distributed.scheduler"):
-        logging.getLogger(name).setLevel(logging.CRITICAL)
+    for name in ("distributed", *logging.root.manager.loggerDict):
+        if name.partition(".")[0] == "distributed":
+            logging.getLogger(name).setLevel(logging.CRITICAL + 1)

@@ -17,7 +17,7 @@ from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
 from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.run import Mode
 
-_TASK_SECONDS = 0.2  # a task shorter than this is mostly Dask's own time
+_TASK_SECONDS = 0.1  # a much shorter task is mostly Dask's own time, a longer one lets others wait
 _CHUNKS_A_WORKER = 4
 _SAME = "give all workers this environment and start them again"
 
@@ -107,7 +107,7 @@ class Parallel:
         while True:
             with contextlib.suppress(Empty):
                 return finished.get(timeout=1.0)
-            if self._has_workers():
+            if self._workers():
                 silent_since = None
                 continue
             silent_since = silent_since or time.monotonic()
@@ -115,11 +115,11 @@ class Parallel:
                 place = self._client.scheduler.address
                 raise ClusterError(f"{place}: all workers are gone; start some: dask worker {place}.")
 
-    def _has_workers(self) -> bool:
+    def _workers(self) -> int:
         if self._client.status != "running":
             raise self._lost(None)
         try:
-            return bool(self._client.nthreads())
+            return len(self._client.nthreads())
         except (OSError, RuntimeError) as error:
             raise self._lost(error) from error
 
@@ -153,9 +153,10 @@ class Parallel:
             self._client.restart_workers([worker], raise_for_error=False)
 
     def _chunks(self, candidates: Sequence[Candidate]) -> Iterator[Chunked]:
-        workers = max(1, len(self._client.nthreads())) if self._has_workers() else 1
-        by_time = 1 if self._seconds is None else max(1, round(_TASK_SECONDS / max(self._seconds, 1e-6)))
-        size = max(1, min(by_time, len(candidates) // (_CHUNKS_A_WORKER * workers)))
+        if not candidates:
+            return
+        by_time = 1 if self._seconds is None else round(_TASK_SECONDS / max(self._seconds, 1e-6))
+        size = max(1, min(by_time, len(candidates) // (_CHUNKS_A_WORKER * max(1, self._workers()))))
         for begin in range(0, len(candidates), size):
             yield tuple(candidates[begin : begin + size])
 

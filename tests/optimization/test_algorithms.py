@@ -1,0 +1,98 @@
+"""CMA-ES: its numbers come from the seed alone."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import warnings
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from gaitsim.optimization.algorithms import CmaEs
+from gaitsim.optimization.problem import Problem, Variable, Vector
+
+
+def problem(count: int, spread: float = 0.2) -> Problem:
+    return Problem(tuple(Variable(f"x{i}", "1", 0.0, 1.0, 0.4, spread) for i in range(count)))
+
+
+def sphere(values: list[float]) -> float:
+    return sum((v - 0.7) ** 2 for v in values)
+
+
+def asked(seed: int, generations: int = 6, between: Callable[[], object] = lambda: None) -> list[list[Vector]]:
+    tuned = problem(4)
+    algorithm = CmaEs(tuned, seed, None)
+    found = []
+    for _ in range(generations):
+        between()
+        vectors = algorithm.ask()
+        found.append([vector.copy() for vector in vectors])
+        between()
+        algorithm.tell(vectors, [sphere(tuned.values(vector)) for vector in vectors])
+    return found
+
+
+def test_a_seed_is_a_search() -> None:
+    assert np.array_equal(asked(1), asked(1))
+    assert not np.array_equal(asked(1), asked(2))
+
+
+def test_numpys_own_generator_has_no_part_in_it() -> None:
+    np.random.seed(5)
+    state = np.random.get_state()[1].copy()  # type: ignore[union-attr, index]
+    plain = asked(1)
+    assert np.array_equal(np.random.get_state()[1], state)  # type: ignore[index]
+    assert np.array_equal(asked(1, between=np.random.standard_normal), plain)
+
+
+def test_pythons_hash_has_no_part_in_it(tmp_path: Path) -> None:
+    code = "import test_algorithms as t; print([[v.tolist() for v in g] for g in t.asked(1)])"
+    path = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])
+    said = {
+        subprocess.run(
+            [sys.executable, "-c", code],
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": path},
+            capture_output=True,
+            check=True,
+        ).stdout
+        for seed in ("0", "4711")
+    }
+    assert len(said) == 1
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(("count", "size"), [(1, 4), (2, 6), (6, 9), (30, 14)])
+def test_the_default_population_is_pycmas(count: int, size: int) -> None:
+    algorithm = CmaEs(problem(count), 1, None)
+    assert algorithm.population == len(algorithm.ask()) == size
+
+
+@pytest.mark.parametrize("count", [1, 2])
+@pytest.mark.parametrize("spread", [0.01, 0.5, 5.0])
+def test_any_spread_finds_the_best_within_the_bounds(count: int, spread: float) -> None:
+    tuned = problem(count, spread)
+    algorithm = CmaEs(tuned, 1, None)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        while not algorithm.stop():
+            vectors = algorithm.ask()
+            values = [tuned.values(vector) for vector in vectors]
+            assert all(0 <= v <= 1 for each in values for v in each)
+            algorithm.tell(vectors, [sphere(each) for each in values])
+    assert tuned.values(algorithm.ask()[0]) == pytest.approx([0.7] * count, abs=1e-3)
+
+
+def test_failures_only_end_a_search_in_words() -> None:
+    algorithm = CmaEs(problem(3), 1, None)
+    said = []
+    for _ in range(2):
+        vectors = algorithm.ask()
+        algorithm.tell(vectors, [np.inf] * len(vectors))
+        said.append(algorithm.stop())
+    assert said == [None, "all candidates have the same cost"]
