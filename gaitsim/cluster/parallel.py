@@ -10,6 +10,8 @@ from dataclasses import dataclass
 from queue import Empty, Queue
 from typing import Any
 
+from distributed import KilledWorker
+
 from gaitsim.cluster.connect import ClusterError
 from gaitsim.cluster.fingerprint import differences, fingerprint
 from gaitsim.cluster.worker import BundlePlugin, Chunk, Done, evaluate_chunk
@@ -19,10 +21,15 @@ from gaitsim.simulation.run import Mode
 
 _TASK_SECONDS = 0.1  # a much shorter task is mostly Dask's own time, a longer one lets others wait
 _CHUNKS_A_WORKER = 4
+_GATHER_SECONDS = 10.0  # a result is some kilobytes; one that takes longer was on a worker that is gone
 _SAME = "give all workers this environment and start them again"
 
 Chunked = tuple[Candidate, ...]
 Found = tuple[Evaluation, float, str]
+
+
+class _ResultLost(Exception):
+    """A worker finished a task, and died before its result was fetched."""
 
 
 @dataclass(frozen=True)
@@ -85,7 +92,11 @@ class Parallel:
         while waiting:
             future = self._next(finished)
             chunk = waiting.pop(future)
-            done = self._done(future)
+            try:
+                done = self._done(future)
+            except _ResultLost:
+                waiting[self._submit(chunk, finished)] = chunk
+                continue
             if done is None:
                 suspects += chunk
                 continue
@@ -126,17 +137,19 @@ class Parallel:
     def _done(self, future: Any) -> Done | None:
         """What a finished task says; None if its workers died.
 
-        Errors: ClusterError; RuntimeError for a bug of ours.
+        Errors: _ResultLost; ClusterError; RuntimeError for a bug of ours.
         """
+        if future.status == "lost":
+            raise _ResultLost
         if future.status == "finished":
-            done: Done = future.result()
+            done = _gathered(future)
             if done.refusal:
                 raise ClusterError(f"worker {done.worker}: {done.refusal}; {_SAME}.")
             if done.bug:
                 raise RuntimeError(f"on worker {done.worker}:\n{done.bug}")
             return done
         error = future.exception() if future.status == "error" else None
-        if type(error).__name__ == "KilledWorker":
+        if isinstance(error, KilledWorker):
             return None
         if error is not None and self._client.status == "running":
             raise ClusterError(f"a worker cannot do its task ({type(error).__name__}: {error}); {_SAME}.")
@@ -192,6 +205,15 @@ class Parallel:
         said = f" ({error})" if error is not None and str(error) else ""
         place = self._client.scheduler.address if self._client.scheduler else "the scheduler"
         return ClusterError(f"{place}: the connection to the scheduler is lost{said}; start it and its workers again.")
+
+
+def _gathered(future: Any) -> Done:
+    """The result of a finished task. Errors: _ResultLost."""
+    try:
+        done: Done = future.result(timeout=_GATHER_SECONDS)
+    except (TimeoutError, KilledWorker) as error:
+        raise _ResultLost from error
+    return done
 
 
 def _given_up(candidate: Candidate, status: str, reason: str) -> Found:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import subprocess
@@ -143,10 +144,13 @@ class Study:
     def arrived(self) -> int:
         """How many evaluations the journal holds by now."""
         found = set()
-        for path in (self.folder / "results").glob("*/*.jsonl"):
-            for line in path.read_text().split("\n")[:-1]:
-                data = json.loads(line)
-                found.add((data["generation"], data["index"]))
+        for folder in (self.folder / "results").glob("*"):
+            for name in ("evaluations.jsonl", "arriving.jsonl"):
+                # A folder gets its name, and a line its place, while we look.
+                with contextlib.suppress(FileNotFoundError):
+                    for line in (folder / name).read_text().split("\n")[:-1]:
+                        data = json.loads(line)
+                        found.add((data["generation"], data["index"]))
         return len(found)
 
     def wait_for(self, evaluations: int, process: subprocess.Popen[str], seconds: float = 60) -> None:
