@@ -26,8 +26,9 @@ test: check ## check, then the fast tests, then the slow ones
 	.venv/bin/pytest -n 2 -m "not slow"
 	.venv/bin/pytest -n 2 -m slow || test $$? -eq 5
 
-bench: $(READY) ## time a step against a bare mj_step loop in C
+bench: $(READY) ## time a step against a bare mj_step loop in C, and workers against one process
 	.venv/bin/python bench/bench.py
+	.venv/bin/python bench/overhead.py
 
 clean: ## remove .venv and all caches; results/ stays
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache bench/build

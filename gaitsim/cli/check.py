@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, open_library, read_document
+from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust
+from gaitsim.cli.source import open_source
 
 if TYPE_CHECKING:
     from gaitsim.errors import Fault
@@ -19,6 +20,7 @@ def check(
     settings: Set = None,
     plot: Annotated[bool, typer.Option("--plot", help="Draw moment arms over the range of every hinge.")] = False,
     folder: Annotated[Path, typer.Option(metavar="FOLDER", help="Where the picture of --plot goes.")] = Path(),
+    trust: Trust = False,
     library: Libraries = None,
     json: Json = False,
 ) -> None:
@@ -33,23 +35,22 @@ def check(
     from gaitsim.analysis.moment_arms import draw, warnings
     from gaitsim.simulation.moment_arms import moment_arms
     from gaitsim.simulation.run import Simulator
-    from gaitsim.spec.resolve import resolve
     from gaitsim.spec.study import variants
 
-    document = read_document(spec, settings)
-    models = [resolve(row.document, open_library(spec, library), spec.stem) for row in variants(document, [])]
+    source = open_source(spec, settings, library, trusted=trust)
+    models = [source.model(row.document) for row in variants(source.document, [])]
     for each in models:
         Simulator(each)
     model = models[0]
-    for notice in model.notices:
+    for notice in (*source.notices, *model.notices):
         console.say(notice)
     arms = moment_arms(model)
     doubts = warnings(arms)
     for doubt in doubts:
         console.say(f"warning: {doubt}")
-    picture = folder / f"{spec.stem}.moment_arms.png" if plot and arms else None
+    picture = folder / f"{source.name}.moment_arms.png" if plot and arms else None
     if picture is not None:
-        draw(arms, picture, spec.stem)
+        draw(arms, picture, source.name)
     counts = {
         "parts": len(model.parts),
         "connections": len(model.connections),
@@ -57,7 +58,7 @@ def check(
         "metrics": len(model.metrics),
     }
     if json:
-        told = {"notices": list(model.notices), "warnings": [_line(doubt) for doubt in doubts]}
+        told = {"notices": [*source.notices, *model.notices], "warnings": [_line(doubt) for doubt in doubts]}
         drawn = {"plot": str(picture) if picture else None} if plot else {}
         console.give_json({"status": "valid", **counts, **told, **drawn})
         return
