@@ -37,7 +37,7 @@ def check(
     from gaitsim.simulation.run import Simulator
     from gaitsim.spec.study import variants
 
-    source = open_source(spec, settings, library, trusted=trust)
+    source = open_source(spec, settings, library, tuned=False, trusted=trust)
     models = [source.model(row.document) for row in variants(source.document, [])]
     for each in models:
         Simulator(each)

@@ -6,6 +6,7 @@ This is the reference; `native_loop` does the same without Python.
 from __future__ import annotations
 
 import contextlib
+from bdb import BdbQuit
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -135,6 +136,8 @@ class _Run:
             arguments = {"start": (p, u, x), "output": (p, u, x, y), "update": (p, u, x, y, self.dt)}
             try:
                 function(*arguments[stage])
+            except BdbQuit:
+                raise KeyboardInterrupt from None  # a debugger's quit ends the command, not this candidate
             except Exception as error:
                 raise _Failed(of_exception(self.program, part, stage, step, error)) from error
         if stage == "start":
