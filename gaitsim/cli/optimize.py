@@ -22,7 +22,7 @@ _INTERRUPTED = 130
 
 def optimize(
     spec: Spec,
-    algorithm: Annotated[str | None, typer.Option(help="Search algorithm (default: cma).")] = None,
+    algorithm: Annotated[str | None, typer.Option(help="Search algorithm: cma (default), ga, pso, de.")] = None,
     population: Annotated[int | None, typer.Option(help="Candidates a generation.")] = None,
     generations: Annotated[int | None, typer.Option(help="Generations at most.")] = None,
     seed: Annotated[int | None, typer.Option(help="Seed of the search.")] = None,

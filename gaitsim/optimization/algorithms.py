@@ -5,10 +5,12 @@ from __future__ import annotations
 import math
 import warnings
 from collections.abc import Callable, Sequence
+from functools import partial
 from typing import Any, Protocol
 
 import numpy as np
 
+from gaitsim.optimization.populations import Pymoo
 from gaitsim.optimization.problem import Problem, Vector
 
 
@@ -90,4 +92,7 @@ class CmaEs:
         return np.asarray(self._strategy.result.xfavorite), np.asarray(self._strategy.result.stds)
 
 
-ALGORITHMS: dict[str, Callable[[Problem, int, int | None], Algorithm]] = {"cma": CmaEs}
+ALGORITHMS: dict[str, Callable[[Problem, int, int | None], Algorithm]] = {
+    "cma": CmaEs,
+    **{name: partial(Pymoo, name) for name in ("ga", "pso", "de")},
+}

@@ -71,9 +71,10 @@ class SimulateSection(_Section):
     gravity: _Acceleration = Field(
         default=9.81, description="Gravitational acceleration, downwards. Geyer et al. 2003."
     )
-    integrator: Literal["euler", "implicitfast"] = Field(
-        default="euler",
-        description="MuJoCo's semi-implicit Euler, or the same with implicit velocity forces. "
+    integrator: Literal["automatic", "euler", "implicitfast"] = Field(
+        default="automatic",
+        description="MuJoCo's semi-implicit Euler, or the same with implicit velocity forces; "
+        "by itself the latter exactly if a part has such forces. "
         "RK4 is not offered: split steps turn it into Euler without a word.",
     )
 
@@ -81,7 +82,7 @@ class SimulateSection(_Section):
 class OptimizeSection(_Section):
     """How the spec is searched; the command line may say otherwise."""
 
-    algorithm: str = Field(default="cma", description="Search algorithm.")
+    algorithm: str = Field(default="cma", description="Search algorithm: cma, ga, pso or de.")
     population: Annotated[int, Field(ge=2)] | None = Field(default=None, description="Candidates a generation.")
     generations: int = Field(default=100, ge=1, description="Generations at most.")
     seed: int = Field(default=1, ge=0, description="Seed of the search.")

@@ -1,4 +1,4 @@
-"""CMA-ES: its numbers come from the seed alone."""
+"""Search algorithms: their numbers come from the seed alone."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaitsim.optimization.algorithms import CmaEs
+from gaitsim.optimization.algorithms import ALGORITHMS, CmaEs
 from gaitsim.optimization.problem import Problem, Variable, Vector
 
 
@@ -24,9 +24,14 @@ def sphere(values: list[float]) -> float:
     return sum((v - 0.7) ** 2 for v in values)
 
 
-def asked(seed: int, generations: int = 6, between: Callable[[], object] = lambda: None) -> list[list[Vector]]:
+NAMES = sorted(ALGORITHMS)
+
+
+def asked(
+    name: str, seed: int, generations: int = 6, between: Callable[[], object] = lambda: None
+) -> list[list[Vector]]:
     tuned = problem(4)
-    algorithm = CmaEs(tuned, seed, None)
+    algorithm = ALGORITHMS[name](tuned, seed, None)
     found = []
     for _ in range(generations):
         between()
@@ -37,21 +42,23 @@ def asked(seed: int, generations: int = 6, between: Callable[[], object] = lambd
     return found
 
 
-def test_a_seed_is_a_search() -> None:
-    assert np.array_equal(asked(1), asked(1))
-    assert not np.array_equal(asked(1), asked(2))
+@pytest.mark.parametrize("name", NAMES)
+def test_a_seed_is_a_search(name: str) -> None:
+    assert np.array_equal(asked(name, 1), asked(name, 1))
+    assert not np.array_equal(asked(name, 1), asked(name, 2))
 
 
-def test_numpys_own_generator_has_no_part_in_it() -> None:
+@pytest.mark.parametrize("name", NAMES)
+def test_numpys_own_generator_has_no_part_in_it(name: str) -> None:
     np.random.seed(5)
     state = np.random.get_state()[1].copy()  # type: ignore[union-attr, index]
-    plain = asked(1)
+    plain = asked(name, 1)
     assert np.array_equal(np.random.get_state()[1], state)  # type: ignore[index]
-    assert np.array_equal(asked(1, between=np.random.standard_normal), plain)
+    assert np.array_equal(asked(name, 1, between=np.random.standard_normal), plain)
 
 
 def test_pythons_hash_has_no_part_in_it(tmp_path: Path) -> None:
-    code = "import test_algorithms as t; print([[v.tolist() for v in g] for g in t.asked(1)])"
+    code = "import test_algorithms as t; print([[[v.tolist() for v in g] for g in t.asked(n, 1)] for n in t.NAMES])"
     path = os.pathsep.join([str(Path(__file__).parent), os.environ.get("PYTHONPATH", "")])
     said = {
         subprocess.run(
@@ -65,6 +72,28 @@ def test_pythons_hash_has_no_part_in_it(tmp_path: Path) -> None:
     }
     assert len(said) == 1
     assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", sorted(set(ALGORITHMS) - {"cma"}))
+@pytest.mark.parametrize("population", [2, 5, 40])
+def test_populations_get_better_within_the_bounds(name: str, population: int) -> None:
+    """Failures are infinite costs, and are no one's best."""
+    tuned = problem(3)
+    algorithm = ALGORITHMS[name](tuned, 1, population)
+    assert algorithm.population == population
+    best = []
+    for _ in range(60):
+        vectors = algorithm.ask()
+        assert 1 <= len(vectors) <= population
+        values = [tuned.values(vector) for vector in vectors]
+        assert all(0 <= v <= 1 for each in values for v in each)
+        costs = [np.inf if each[0] > 0.9 else sphere(each) for each in values]
+        algorithm.tell(vectors, costs)
+        best.append(min(costs))
+    found = algorithm.distribution()
+    assert found is not None
+    assert sphere(tuned.values(found[0])) == min(best)
+    assert population < 40 or min(best) < 1e-3
 
 
 @pytest.mark.parametrize(("count", "size"), [(1, 4), (2, 6), (6, 9), (30, 14)])
