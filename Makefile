@@ -9,7 +9,7 @@ PYTHONS := $(PYTHON) python3.13 python3.12 python3.11 python3
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 export GAITSIM_CACHE := $(CURDIR)/.cache/gaitsim
 
-.PHONY: help setup run test check bench clean
+.PHONY: help setup run test check bench muscles clean
 help:
 	@sed -n 's/^\([a-z]*\):.*## /make \1	/p' Makefile
 
@@ -29,6 +29,9 @@ test: check ## check, then the fast tests, then the slow ones
 bench: $(READY) ## time a step against a bare mj_step loop in C, and workers against one process
 	.venv/bin/python bench/bench.py
 	.venv/bin/python bench/overhead.py
+
+muscles: $(READY) ## tune the hopper with every muscle model: height, work, wall time (some minutes)
+	.venv/bin/python bench/muscle_models.py
 
 clean: ## remove .venv and all caches; results/ stays
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache bench/build

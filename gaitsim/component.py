@@ -15,21 +15,26 @@ attributes: plain numbers in SI. Angles are in radians.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
 __all__ = [
     "Attachment",
     "Component",
+    "Curve",
     "Frame",
     "Input",
+    "Link",
     "Metric",
     "Option",
     "Output",
     "Parameter",
     "Part",
     "Points",
+    "Series",
     "State",
+    "StepLimit",
 ]
 
 
@@ -50,6 +55,19 @@ class Points:
 
     doc: str
     unit: str = "m"
+
+
+@dataclass(frozen=True)
+class Series:
+    """A recorded curve: `size` numbers at equal distances, which no search changes.
+
+    A spec names a column of a table beside the components, or writes a list; either is
+    brought to this size: `norms/fukuchi2018_walking.knee_flexion`, `[0 deg, 60 deg, 0 deg]`.
+    """
+
+    unit: str
+    doc: str
+    size: int
 
 
 @dataclass(frozen=True)
@@ -117,6 +135,9 @@ class Part:
 
     reads: this part's input <- the inner part's output.
     sends: the inner part's input <- this part's input or output.
+    gives: the inner part's parameter, if it has it and a spec does not set it <- an expression of
+        this part's parameters.
+    optional: it is there only if a spec says so.
     """
 
     kind: str
@@ -124,9 +145,77 @@ class Part:
     default: str | None = None
     reads: tuple[tuple[str, str], ...] = ()
     sends: tuple[tuple[str, str], ...] = ()
+    gives: tuple[tuple[str, str], ...] = ()
+    optional: bool = False
 
 
-Declaration = Parameter | Points | Option | Attachment | Frame | Input | Output | State | Metric | Part
+@dataclass(frozen=True)
+class Link:
+    """Connections with another part that a spec makes by its name alone, such as `joint: ankle`.
+
+    reads: this part's input <- the other part's output.
+    sends: the other part's input <- this part's output.
+    """
+
+    doc: str
+    reads: tuple[tuple[str, str], ...] = ()
+    sends: tuple[tuple[str, str], ...] = ()
+
+
+@dataclass(frozen=True)
+class StepLimit:
+    """The largest time step at which the component is right, found by measurement; `doc` says by which measure.
+
+    `gaitsim check`, `run` and `optimize` say so of a spec whose step is longer.
+    """
+
+    unit: str
+    doc: str
+    value: float
+
+
+@dataclass(frozen=True)
+class Curve:
+    """A graph of the component alone, which `gaitsim library show --plot` draws.
+
+    of: an output, or a function of this file.
+    over: an input, a state, an output that MuJoCo sets, an argument of the function, or "time".
+    span: the range of `over`, in its unit.
+    at: values of what else is read, by name, in their units; a word is the name of a parameter.
+    each: a name and its values, one line for each.
+    steps: inputs over time: the values that each takes one after the other, for equal times.
+    unit, over_unit: of what a function gives and of its argument.
+    inverse: the axes are exchanged.
+    """
+
+    of: str
+    over: str
+    span: tuple[float, float]
+    doc: str
+    at: Mapping[str, float | str] = field(default_factory=dict)
+    each: tuple[str, tuple[float, ...]] | None = None
+    steps: Mapping[str, tuple[float, ...]] = field(default_factory=dict)
+    unit: str = "1"
+    over_unit: str = "1"
+    inverse: bool = False
+
+
+Declaration = (
+    Parameter
+    | Points
+    | Series
+    | Option
+    | Attachment
+    | Frame
+    | Input
+    | Output
+    | State
+    | Metric
+    | Part
+    | Link
+    | StepLimit
+    | Curve
+)
 
 
 class Component:

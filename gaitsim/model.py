@@ -9,8 +9,10 @@ from dataclasses import dataclass, field, replace
 from gaitsim.errors import Mark, SimulationFailed
 from gaitsim.parts.primitive import Primitive
 from gaitsim.spec.expression import Expression
+from gaitsim.units import parse_unit
 
 WORLD = "world"
+TERMS = "terms"  # the input of an objective that the costs of its terms are added to
 
 
 @dataclass(frozen=True)
@@ -51,6 +53,15 @@ class Place:
 
 
 @dataclass(frozen=True)
+class Recording:
+    """The numbers of a series in SI, the column that they come from, and who recorded it."""
+
+    values: tuple[float, ...]
+    column: str = ""
+    source: str = ""
+
+
+@dataclass(frozen=True)
 class Part:
     """One primitive in its place."""
 
@@ -64,6 +75,7 @@ class Part:
     mirrored: bool
     measure: bool
     mark: Mark
+    series: Mapping[str, Recording] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -89,6 +101,16 @@ class Connection:
 
 
 @dataclass(frozen=True)
+class Signal:
+    """One number that is recorded at every instant; a state may have names for its values 0, 1, ..."""
+
+    address: str
+    unit: str
+    doc: str
+    levels: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
 class Simulate:
     """How long and in which steps, in SI."""
 
@@ -100,10 +122,19 @@ class Simulate:
 
 @dataclass(frozen=True)
 class Objective:
-    """The part that turns metrics into a cost: its input -> the address of a metric."""
+    """The part that turns metrics into a cost: its input -> the address of a metric.
+
+    Its terms are objectives themselves; their costs are added to its input `terms`.
+    """
 
     part: Part
     metrics: Mapping[str, str]
+    terms: tuple[Objective, ...] = ()
+
+    @property
+    def all(self) -> tuple[Objective, ...]:
+        """It and its terms, and theirs."""
+        return (self, *(inner for term in self.terms for inner in term.all))
 
 
 @dataclass(frozen=True)
@@ -183,6 +214,24 @@ def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> di
             unit = part.type.metrics[own].unit
             found[name] = measured.get(part.address, unit) if unit == "*" else unit
     return found
+
+
+def recorded_signals(model: Model) -> tuple[Signal, ...]:
+    """What a trajectory has: every output, and every state that is one number and no measure's."""
+    found = []
+    for part in model.parts:
+        place = part.address
+        found += [Signal(f"{place}.{name}", _si(o.unit), o.doc) for name, o in part.type.outputs.items()]
+        if not part.measure:
+            states = {name: s for name, s in part.type.states.items() if s.size is None}
+            found += [Signal(f"{place}.{name}", _si(s.unit), s.doc, s.levels) for name, s in states.items()]
+    return tuple(found)
+
+
+def _si(unit: str) -> str:
+    """The unit that recorded numbers have: the declared one, or SI's where that is another (deg: rad)."""
+    known = parse_unit(unit)
+    return unit if known.factor == 1 else known.dimension.si
 
 
 def _input_unit(port: str, parts: Sequence[Part]) -> str:

@@ -8,18 +8,20 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from gaitsim.cli.source import Source, open_source, source_of_spec
+from gaitsim.cli.source import open_source, source_of_spec
 from gaitsim.cli.tuning import Tuning
 from gaitsim.errors import Fault, InvalidSpec, Mark, Usage, did_you_mean
 from gaitsim.optimization.algorithms import ALGORITHMS
 from gaitsim.optimization.journal import evaluations_in
 from gaitsim.results.bundle import SPEC, START, Bundle, bundle_model, read_bundle
+from gaitsim.results.episodes import episode_models
 from gaitsim.results.manifest import BadResult, changed_versions, is_result, new_manifest, read_manifest
+from gaitsim.results.source import Source
 from gaitsim.results.store import create_result
 from gaitsim.results.trust import check_trust
 from gaitsim.results.tuned import problem_of, read_tuned, tuned_path
 from gaitsim.simulation.run import Mode, Simulator
-from gaitsim.spec.schema import OptimizeSection, optimize_section
+from gaitsim.spec.schema import SearchSection, optimize_section
 
 _SMOKE = {"population": 4, "generations": 2}
 _LEAST = {"population": 2, "generations": 1, "seed": 0}
@@ -61,8 +63,9 @@ def begun(request: Request, root: Path) -> Tuning:
     algorithm = ALGORITHMS[search["algorithm"]](problem_of(model), search["seed"], search["population"])
     search["population"] = algorithm.population
     mode: Mode = "normal" if request.mode == "normal" else "rapid"
+    each = episode_models(source.document, source.library, source.name)
     simulator = Simulator(model, mode)
-    bundle = source.bundle([model])
+    bundle = source.bundle([model, *each])
     manifest = new_manifest("optimize", bundle, mode, spec=str(request.spec), search=search, notices=notices)
     folder = create_result(root, bundle, model, simulator.xml, manifest, {"evaluations.jsonl": ""})
     return Tuning(folder, manifest, bundle, bundle_model(folder, bundle.name), [*model.notices, *notices])
@@ -121,7 +124,7 @@ def _check_same_search(request: Request, search: dict[str, Any], mode: str) -> N
 def _recorded_search(folder: Path, manifest: dict[str, Any]) -> dict[str, Any]:
     """How a search was begun. Errors: BadResult."""
     try:
-        found = OptimizeSection.model_validate(manifest["search"]).model_dump()
+        found = SearchSection.model_validate(manifest["search"]).model_dump()
         if found["algorithm"] not in ALGORITHMS or not isinstance(manifest["versions"], dict):
             raise ValueError("no search of ours")
         return found
@@ -142,7 +145,8 @@ def _search_of(source: Source, request: Request) -> dict[str, Any]:
     section = optimize_section(source.document)
     asked = {n: getattr(request, n) for n in ("algorithm", "population", "generations", "seed")}
     smoke = _SMOKE if request.smoke else {}
-    found = section.model_dump() | smoke | {name: value for name, value in asked.items() if value is not None}
+    said = section.model_dump(include={*SearchSection.model_fields})
+    found = said | smoke | {name: value for name, value in asked.items() if value is not None}
     if found["algorithm"] not in ALGORITHMS:
         hint = did_you_mean(found["algorithm"], ALGORITHMS)
         raise Usage(f"--algorithm {found['algorithm']}: there is no such algorithm. {hint}")
@@ -192,7 +196,8 @@ def _newest(spec: Path, root: Path) -> Path:
 def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
     """A search goes on only with the spec it began with."""
     source = source_of_spec(request.spec, request.settings, request.library, tuned=False)
-    now = source.bundle([source.model()]).files
+    models = [source.model(), *episode_models(source.document, source.library, source.name)]
+    now = source.bundle(models).files
     before = {path: text for path, text in bundle.files.items() if path != START}
     changed = sorted(path for path in {*now, *before} if now.get(path) != before.get(path))
     if changed:

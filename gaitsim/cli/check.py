@@ -20,6 +20,12 @@ def check(
     settings: Set = None,
     plot: Annotated[bool, typer.Option("--plot", help="Draw moment arms over the range of every hinge.")] = False,
     folder: Annotated[Path, typer.Option(metavar="FOLDER", help="Where the picture of --plot goes.")] = Path(),
+    convergence: Annotated[
+        bool, typer.Option("--convergence", help="Run at the step, a half and a quarter: what changes?")
+    ] = False,
+    tolerance: Annotated[
+        float, typer.Option(metavar="PART", help="With --convergence: changes beyond it are flagged.", min=0)
+    ] = 0.01,
     trust: Trust = False,
     library: Libraries = None,
     json: Json = False,
@@ -31,15 +37,21 @@ def check(
     gaitsim check specs/hopping_geyer2003.yaml
 
     gaitsim check specs/hopping_leg_mass.yaml --plot --folder pictures
+
+    gaitsim check specs/hopping_leg_mass.yaml --convergence
     """
     from gaitsim.analysis.moment_arms import draw, warnings
+    from gaitsim.cli.convergence import convergence_of, data, give
+    from gaitsim.results.episodes import episode_models
     from gaitsim.simulation.moment_arms import moment_arms
     from gaitsim.simulation.run import Simulator
     from gaitsim.spec.study import variants
 
-    source = open_source(spec, settings, library, tuned=False, trusted=trust)
-    models = [source.model(row.document) for row in variants(source.document, [])]
-    for each in models:
+    # What is simulated is what `run` would simulate.
+    source = open_source(spec, settings, library, tuned=convergence, trusted=trust)
+    rows = variants(source.document, [])
+    models = [source.model(row.document) for row in rows]
+    for each in (*models, *episode_models(source.document, source.library, source.name)):
         Simulator(each)
     model = models[0]
     for notice in (*source.notices, *model.notices):
@@ -51,6 +63,7 @@ def check(
     picture = folder / f"{source.name}.moment_arms.png" if plot and arms else None
     if picture is not None:
         draw(arms, picture, source.name)
+    found = convergence_of(models) if convergence else []
     counts = {
         "parts": len(model.parts),
         "connections": len(model.connections),
@@ -60,9 +73,14 @@ def check(
     if json:
         told = {"notices": [*source.notices, *model.notices], "warnings": [_line(doubt) for doubt in doubts]}
         drawn = {"plot": str(picture) if picture else None} if plot else {}
-        console.give_json({"status": "valid", **counts, **told, **drawn})
+        changes = {"convergence": [data(one, tolerance) for one in found]} if convergence else {}
+        console.give_json({"status": "valid", **counts, **told, **drawn, **changes})
         return
     console.give(f"{spec}: valid ({', '.join(f'{n} {name}' for name, n in counts.items())})")
+    for row, converged in zip(rows, found, strict=False):
+        if row.settings:
+            console.give("\n" + ", ".join(f"{address} = {value}" for address, value in row.settings.items()))
+        give(converged, tolerance)
     if plot:
         console.say(f"drawn in {picture}" if picture else "nothing to draw: no path of points crosses a hinge")
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
 from gaitsim.errors import GaitsimError
@@ -19,6 +19,17 @@ def say(text: str) -> None:
 def rewrite(text: str) -> None:
     """Talk that replaces the line before, on a terminal."""
     print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
+
+
+def progress(what: str) -> Callable[[int, int], None]:
+    """What hears of steps done, and of how many, and shows them in one line; only on a terminal."""
+    terminal = sys.stderr.isatty()
+
+    def hear(done: int, count: int) -> None:
+        if terminal:
+            rewrite("" if done == count else f"{what}: {done} of {count}")
+
+    return hear
 
 
 def give(text: str) -> None:

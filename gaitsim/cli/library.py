@@ -2,19 +2,30 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from collections.abc import Iterator
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, open_library
+from gaitsim.cli.options import Json, Libraries, Reference, open_library
+from gaitsim.cli.options import complete_kinds as _kinds
+from gaitsim.cli.options import complete_references as _references
+
+if TYPE_CHECKING:
+    from gaitsim.errors import Fault
+    from gaitsim.parts.composite import ComponentFile
+    from gaitsim.parts.find import Library
 
 app = typer.Typer(help="List and show the components that specs can use.", no_args_is_help=True, rich_markup_mode=None)
 
 
 @app.command("list")
 def list_components(
-    kind: Annotated[str, typer.Argument(metavar="[KIND]", help="One kind only, such as muscle.")] = "*",
+    kind: Annotated[
+        str, typer.Argument(metavar="[KIND]", help="One kind only, such as muscle.", autocompletion=_kinds)
+    ] = "*",
     library: Libraries = None,
     json: Json = False,
 ) -> None:
@@ -39,19 +50,34 @@ def list_components(
 
 @app.command("show")
 def show_component(
-    reference: Annotated[str, typer.Argument(metavar="KIND/NAME", help="Such as muscle/geyer2003.")],
+    reference: Reference,
+    plot: Annotated[bool, typer.Option("--plot", help="Draw its curves, such as force over length.")] = False,
+    folder: Annotated[Path, typer.Option(metavar="FOLDER", help="Where the picture of --plot goes.")] = Path(),
+    settings: Annotated[
+        list[str] | None,
+        typer.Option("--set", metavar="NAME=VALUE", help="With --plot: a parameter's value; repeatable."),
+    ] = None,
     library: Libraries = None,
     json: Json = False,
 ) -> None:
     """Show what a component declares: parameters, ports, states, with units and sources.
 
-    Example: gaitsim library show muscle/geyer2003
+    Examples:
+
+    gaitsim library show muscle/geyer2003
+
+    gaitsim library show controller/muscle_feedback --plot --set gain=3
     """
+    from gaitsim.errors import Usage
     from gaitsim.parts.describe import described
 
-    found = described(open_library(None, library).find(reference))
+    if settings and not plot:
+        raise Usage("--set says at which values curves are drawn; add --plot.")
+    component = open_library(None, library).find(reference)
+    found = described(component)
+    picture = _drawn(component, settings or [], folder) if plot else None
     if json:
-        console.give_json(found)
+        console.give_json(found | ({"plot": str(picture) if picture else None} if plot else {}))
         return
     console.give(f"{found['use']}  ({found['file']}, {found['digest'][:12]})\n\n{found['doc']}")
     for section, rows in found.items():
@@ -60,6 +86,153 @@ def show_component(
             columns = list(dict.fromkeys(key for row in rows.values() for key in row))
             table = [(name, *(_cell(row.get(key)) for key in columns)) for name, row in rows.items()]
             console.give_table([section, *columns], table)
+
+
+@app.command("check")
+def check_components(
+    what: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[KIND/NAME | PATH]...", help="Components, files or folders; all of the library by default."
+        ),
+    ] = None,
+    library: Libraries = None,
+    json: Json = False,
+) -> None:
+    """Check component files: names, units on every path, docs, sources, bounds, kind, native code. All faults at once.
+
+    Examples:
+
+    gaitsim library check muscle/geyer2010
+
+    gaitsim library check components
+    """
+    from gaitsim.errors import InvalidComponent
+    from gaitsim.parts.review import review
+
+    checked, faults = 0, []
+    for reference, parts in _asked(what or [], library):
+        found = review(reference, parts)
+        faults += found or _of_native_code(reference, parts)
+        checked += 1
+    if faults:
+        raise InvalidComponent(faults)
+    if json:
+        console.give_json({"status": "valid", "components": checked})
+    else:
+        console.give(f"{checked} component{'s' if checked != 1 else ''}: valid")
+
+
+@app.command("new")
+def new_component_file(
+    kind: Annotated[str, typer.Argument(metavar="KIND", help="Such as muscle.", autocompletion=_kinds)],
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Such as my_muscle.")],
+    folder: Annotated[
+        Path, typer.Option(metavar="FOLDER", help="Where your specs are: components/ and tests/ are made there.")
+    ] = Path(),
+    like: Annotated[
+        str | None, typer.Option(metavar="KIND/NAME", help="Begin with a copy of this one.", autocompletion=_references)
+    ] = None,
+    library: Libraries = None,
+    json: Json = False,
+) -> None:
+    """Write a component of your own that works, with a test; then change it.
+
+    Examples:
+
+    gaitsim library new muscle my_muscle
+
+    gaitsim library new muscle my_muscle --like muscle/geyer2010
+    """
+    from gaitsim.cli.written import write_new
+    from gaitsim.parts.skeleton import new_component, test_of
+
+    parts = open_library(folder / "spec.yaml", library)
+    file, text = new_component(kind, name, parts, like)
+    made = {folder / "components" / kind / file: text}
+    if file.endswith(".py"):
+        made[folder / "tests" / f"test_{name}.py"] = test_of(kind, name)
+    write_new(made)
+    if json:
+        console.give_json({"use": f"{kind}/{name}", "files": [str(path) for path in made]})
+        return
+    for path in made:
+        console.give(str(path))
+    console.say(f"a spec in {folder.absolute()} can say use: {kind}/{name}; gaitsim library check {next(iter(made))}")
+
+
+def _asked(what: list[str], folders: list[Path] | None) -> Iterator[tuple[str, Library]]:
+    """Each component that is to be checked, with the library that it is in."""
+    from gaitsim.errors import Usage
+    from gaitsim.parts.find import Library, shown
+    from gaitsim.parts.review import components_in
+
+    everything = open_library(None, folders)
+    for word in what or [shown(folder) for folder in everything.folders]:
+        path = Path(word)
+        if word in everything.references() or not path.exists():
+            yield word, everything
+            continue
+        root, references = components_in(path)
+        if not references:
+            raise Usage(f"{word}: there is no component in it; name a folder of kinds, such as components.")
+        here = Library((root, *(f for f in everything.folders if f.resolve() != root.resolve())))
+        yield from ((reference, here) for reference in references)
+
+
+def _of_native_code(reference: str, parts: Library) -> list[Fault]:
+    """Why a component cannot become native code."""
+    from gaitsim.compiler.kernel import address_of
+    from gaitsim.errors import InvalidComponent
+    from gaitsim.parts.primitive import Primitive
+
+    component = parts.find(reference)
+    try:
+        if isinstance(component, Primitive):
+            address_of(component)
+    except InvalidComponent as error:
+        return list(error.faults)
+    return []
+
+
+def _drawn(component: ComponentFile, settings: list[str], folder: Path) -> Path | None:
+    """The picture of a component's curves, or a line on why there is none."""
+    from gaitsim.analysis.curves import draw
+    from gaitsim.results.store import CannotSave
+    from gaitsim.simulation.curves import graphs, why_no_curves
+
+    panels = graphs(component, _values(component, settings))
+    if not panels:
+        console.say(f"nothing to draw of {component.reference}: {why_no_curves(component)}")
+        return None
+    picture = folder / f"{component.reference.replace('/', '.')}.curves.png"
+    try:
+        draw(panels, picture, component.reference)
+    except OSError as error:
+        raise CannotSave(f"{picture}: {error.strerror}; choose another --folder.") from error
+    for name, value in {n: v for panel in panels for n, v in panel.assumed.items()}.items():
+        console.say(f"{name} has no default; drawn at {value}. Another: --set {name}=...")
+    console.say(f"drawn in {picture}")
+    return picture
+
+
+def _values(component: ComponentFile, settings: list[str]) -> dict[str, float]:
+    """Parameters in SI, from NAME=VALUE. Errors: Usage."""
+    from gaitsim.errors import Faults, Usage, did_you_mean
+    from gaitsim.spec.document import parse_value
+    from gaitsim.spec.inheritance import split_setting
+    from gaitsim.spec.quantity import number
+
+    values, faults = {}, Faults()
+    for name, text in map(split_setting, settings):
+        if name not in component.parameters:
+            hint = did_you_mean(name, component.parameters)
+            raise Usage(f"--set {name}: {component.reference} has no such parameter. {hint}")
+        value = number(parse_value(text, f"--set {name}={text}"), component.parameters[name].unit, faults, name)
+        if value is not None:
+            values[name] = value
+    faults.raise_if_any(Usage)
+    return values
 
 
 def _cell(value: Any) -> str:

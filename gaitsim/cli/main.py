@@ -1,4 +1,4 @@
-"""The command line: `gaitsim run | optimize | check | show | schema | library | results`."""
+"""The command line: `gaitsim run | optimize | analyze | check | show | schema | library | results`."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from gaitsim import __version__
-from gaitsim.cli import check, console, library, optimize, results, run, schema, show
+from gaitsim.cli import analyze, check, cite, console, library, new, optimize, results, run, schema, show, view
 from gaitsim.errors import ExitCode, GaitsimError
 
 app = typer.Typer(
@@ -22,8 +22,12 @@ app = typer.Typer(
 )
 app.command("run")(run.run)
 app.command("optimize")(optimize.optimize)
+app.command("analyze")(analyze.analyze)
+app.command("view")(view.view)
 app.command("check")(check.check)
 app.command("show")(show.show)
+app.command("cite")(cite.cite)
+app.command("new")(new.new)
 app.command("schema")(schema.schema)
 app.add_typer(library.app, name="library")
 app.add_typer(results.app, name="results")

@@ -13,6 +13,21 @@ if TYPE_CHECKING:
     from gaitsim.parts.find import Library
     from gaitsim.spec.document import Mapping
 
+
+
+def complete_references(incomplete: str) -> list[str]:
+    """Components, for the shell's completion."""
+    return [reference for reference in open_library(None, None).references() if reference.startswith(incomplete)]
+
+
+def complete_kinds(incomplete: str) -> list[str]:
+    """Kinds of components, for the shell's completion."""
+    return sorted(kind for kind in open_library(None, None).kinds() if kind.startswith(incomplete))
+
+
+Reference = Annotated[
+    str, typer.Argument(metavar="KIND/NAME", help="Such as muscle/geyer2003.", autocompletion=complete_references)
+]
 Spec = Annotated[
     Path, typer.Argument(metavar="SPEC", help="A spec, such as specs/hopping_geyer2003.yaml, or a result folder.")
 ]

@@ -10,11 +10,12 @@ import typer
 
 from gaitsim.cli import console
 from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
-from gaitsim.cli.source import Source, open_source
+from gaitsim.cli.source import open_source
 from gaitsim.errors import SimulationFailed
 
 if TYPE_CHECKING:
     from gaitsim.model import Model
+    from gaitsim.results.source import Source
     from gaitsim.simulation.outcome import Outcome
     from gaitsim.spec.study import Variant
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from gaitsim.errors import Usage
 from gaitsim.optimization.search import Evaluator
-from gaitsim.results.bundle import Bundle, bundle_model
+from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.run import Mode
 
 
@@ -48,9 +48,9 @@ class Workplace:
         """
         if self.workers == 0:
             from gaitsim.cluster.evaluate import Bench, Serial
-            from gaitsim.simulation.run import Simulator
+            from gaitsim.results.episodes import bundle_episodes
 
-            return Serial(Bench(Simulator(bundle_model(folder, bundle.name), mode), folder))
+            return Serial(Bench(bundle_episodes(folder, bundle.name, mode), folder))
         from gaitsim.cluster import connect
 
         if self.cluster:

@@ -2,35 +2,34 @@
 
 from __future__ import annotations
 
-import math
 import socket
 import tempfile
 import time
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
 from gaitsim.parts.find import shown
-from gaitsim.results.bundle import Bundle, bundle_model
-from gaitsim.simulation.run import Mode, Simulator
+from gaitsim.results.bundle import Bundle
+from gaitsim.results.episodes import Episodes, bundle_episodes
+from gaitsim.simulation.run import Mode
 
 
 @dataclass(frozen=True)
 class Bench:
-    """A simulator, and the folder that its spec and components were read from."""
+    """The episodes of a candidate, and the folder that their spec and components were read from."""
 
-    simulator: Simulator
+    episodes: Episodes
     folder: Path
 
     def verdict(self, x: Sequence[float]) -> Verdict:
         """What the journal keeps of a candidate; its reason names files within the bundle, wherever that lies."""
-        outcome = self.simulator.run(x)
-        reason = outcome.reason
+        found = self.episodes.verdict(x)
+        reason = found.reason
         for folder in (str(self.folder), shown(self.folder)):
             reason = reason.replace(f"{folder}/", "")
-        metrics = {n: v if math.isfinite(v) else None for n, v in outcome.metrics.items()}
-        return Verdict(outcome.status, reason, outcome.score, metrics, outcome.simulated_seconds, outcome.steps)
+        return replace(found, reason=reason)
 
 
 # A worker keeps what it compiled: one bench for each bundle and mode.
@@ -47,7 +46,7 @@ def bench_of(bundle: Bundle, mode: Mode) -> Bench:
         with tempfile.TemporaryDirectory(prefix="gaitsim-") as name:
             folder = Path(name)
             bundle.write(folder)
-            _benches[key] = Bench(Simulator(bundle_model(folder, bundle.name), mode), folder)
+            _benches[key] = Bench(bundle_episodes(folder, bundle.name, mode), folder)
     return _benches[key]
 
 

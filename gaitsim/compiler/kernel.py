@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import hashlib
 import importlib.util
-import os
 import platform
 import re
 import shutil
@@ -25,6 +24,7 @@ from numba.core.errors import NumbaError
 
 from gaitsim import __version__
 from gaitsim.errors import Fault, InvalidComponent, Mark
+from gaitsim.parts.audited import cache_root
 from gaitsim.parts.primitive import Primitive
 
 START, OUTPUT, UPDATE = 0, 1, 2
@@ -91,7 +91,7 @@ def _folder(component: Primitive) -> Path:
     """The cache folder of a component, made complete or not at all."""
     text = component.source + _footer(component)
     key = hashlib.sha256(f"{text}|{_environment()}".encode()).hexdigest()[:24]
-    folder = cache_folder() / key
+    folder = cache_root() / "kernels" / key
     if not (folder / "kernel.py").is_file():
         folder.parent.mkdir(parents=True, exist_ok=True)
         draft = Path(tempfile.mkdtemp(dir=folder.parent, prefix=f"{key}.partial."))
@@ -101,14 +101,6 @@ def _folder(component: Primitive) -> Path:
         except OSError:  # another process was faster; its content is the same
             shutil.rmtree(draft)
     return folder
-
-
-def cache_folder() -> Path:
-    """Where kernels are kept: $GAITSIM_CACHE, or gaitsim's folder in the user's cache."""
-    if own := os.environ.get("GAITSIM_CACHE"):
-        return Path(own) / "kernels"
-    root = os.environ.get("XDG_CACHE_HOME")
-    return (Path(root) if root else Path.home() / ".cache") / "gaitsim" / "kernels"
 
 
 @cache
@@ -131,7 +123,7 @@ def _footer(component: Primitive) -> str:
     ]
     helpers = re.findall(r"^def (\w+)", component.source, re.MULTILINE)
     return _FOOTER.format(
-        parameters=_layout(dict.fromkeys(component.parameters)),
+        parameters=_layout(dict.fromkeys(component.parameters) | {n: s.size for n, s in component.series.items()}),
         inputs=_layout(dict.fromkeys(component.inputs)),
         states=_layout({name: state.size for name, state in component.states.items()}),
         outputs=_layout(dict.fromkeys(component.outputs)),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import zlib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from types import SimpleNamespace
@@ -11,66 +12,11 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gaitsim.errors import did_you_mean, with_article
-from gaitsim.model import WORLD, Part
-
-Vector = Sequence[float]
-
-
-@dataclass(frozen=True)
-class Element:
-    """A named element of the MuJoCo model: a joint, tendon, actuator, sensor or site."""
-
-    kind: str
-    name: str
-
-
-# What MuJoCo's data holds of each kind of element.
-_FIELDS = {
-    "joint": ("qpos", "qvel", "qacc", "qfrc_applied"),
-    "tendon": ("ten_length", "ten_velocity"),
-    "actuator": ("ctrl", "actuator_length", "actuator_velocity", "actuator_force"),
-    "sensor": ("sensordata",),
-}
-
-
-@dataclass(frozen=True)
-class Tie:
-    """A port tied to one number of MuJoCo's data, such as qpos of a joint."""
-
-    port: str
-    element: Element | None
-    field: str
-    index: int = 0
-    sign: float = 1.0
-
-
-@dataclass(frozen=True)
-class Point:
-    """A place on a body of the MuJoCo model, for `mj.tendon` and the like."""
-
-    body: Any
-    position: tuple[float, float, float]
-
-
-@dataclass(frozen=True)
-class Wrap:
-    """A cylinder that a path bends around, on the side of a site; made by `mj.cylinder`."""
-
-    geom: str
-    side: str
-
-
-@dataclass
-class Frames:
-    """Where every frame of the model lies: its body and its position there."""
-
-    places: dict[str, Point] = field(default_factory=dict)
-
-    def point(self, frame: str, offset: Vector = (0, 0, 0)) -> Point:
-        place = self.places[frame]
-        x, y, z = (a + b for a, b in zip(place.position, offset, strict=True))
-        return Point(place.body, (x, y, z))
+from gaitsim.compiler.ground import add_ground, add_surface
+from gaitsim.compiler.places import DrawnForce, DrawnLine, Frames, Moved, Point, Touching, Vector, Wrap
+from gaitsim.compiler.ties import Element, Tie, tied
+from gaitsim.errors import did_you_mean
+from gaitsim.model import Part
 
 
 @dataclass
@@ -88,6 +34,9 @@ class Mechanics:
     reads: list[Tie] = field(default_factory=list)
     applies: list[Tie] = field(default_factory=list)
     constants: list[Callable[[Any], float]] = field(default_factory=list)
+    drawings: list[DrawnLine | DrawnForce] = field(default_factory=list)
+    touching: list[Touching] = field(default_factory=list)
+    lifts: list[str] = field(default_factory=list)
 
     @property
     def _info(self) -> str:
@@ -116,18 +65,25 @@ class Mechanics:
         return self._joint(mujoco.mjtJoint.mjJNT_SLIDE, self._mirrored(axis), suffix, damping)
 
     def hinge(
-        self, axis: Vector, suffix: str = "", damping: float = 0.0, limits: Sequence[float] | None = None
+        self,
+        axis: Vector,
+        suffix: str = "",
+        damping: float = 0.0,
+        limits: Sequence[float] | None = None,
+        neutral: float = 0.0,
     ) -> Element:
         """A rotation of the child about an axis; damping in N m s/rad.
 
-        Limits in rad are told to whoever plots the joint; what happens there is the part's own.
+        Its coordinate is `neutral` (rad) where the frames are aligned. Limits in rad are told to
+        whoever plots the joint; what happens there is the part's own.
         """
         x, y, z = (float(v) for v in axis)
         # An axis is a pseudovector: mirrored in y, its x and z turn round and its y stays.
         turned = (-x, y, -z) if self.part.mirrored else (x, y, z)
         joint = self._joint(mujoco.mjtJoint.mjJNT_HINGE, turned, suffix, damping)
+        made = self.spec.joint(joint.name)
+        made.ref = float(neutral)
         if limits is not None:
-            made = self.spec.joint(joint.name)
             made.range, made.limited = [float(limit) for limit in limits], False
         return joint
 
@@ -206,33 +162,54 @@ class Mechanics:
         point.body.add_site(name=name, pos=list(point.position), size=[radius] * 3, info=self._info)
         return name
 
-    def push(self, place: Point, axis: Vector) -> Element:
-        """An actuator whose control is a force on a place along an axis of the world.
+    def push(
+        self,
+        place: Point,
+        axis: Vector,
+        suffix: str = "push",
+        surface: str = "",
+        reach: Vector = (0, 0, 0),
+        gain: Vector = (1, 0),
+        limits: Vector | None = None,
+    ) -> Element:
+        """An actuator on a place along an axis of the world, or of the ground that an inner part makes.
 
-        Its actuator_length is the place's coordinate on that axis, its actuator_velocity the rate.
+        Its actuator_length is the place's coordinate on that axis, its actuator_velocity the rate. With
+        `reach` the force acts that far from the place, in m along the same axes: at the lowest point of a
+        sphere, say; the velocity is then the one there, the length of no use. For gain and limits see `motor`.
         """
-        name, ground = self._name("push"), "world.origin"
-        if all(site.name != ground for site in self.spec.sites):
+        name, ground = self._name(suffix), self._name(f"{surface}.surface") if surface else "world.origin"
+        if not surface and self.spec.site(ground) is None:
             self.spec.worldbody.add_site(name=ground, size=[0.005] * 3)
+        if self.spec.site(self._name("place")) is None:
+            self._site("place", place)
         actuator = self.spec.add_actuator(
             name=name,
             trntype=mujoco.mjtTrn.mjTRN_SITE,
-            target=self._site("place", place),
+            target=self._name("place"),
             refsite=ground,
-            gear=[*(float(v) for v in axis), 0, 0, 0],
+            gear=[*(float(v) for v in axis), *np.cross(reach, axis)],
             info=self._info,
         )
-        actuator.set_to_motor()
+        _drive(actuator, gain, limits)
         return Element("actuator", name)
 
+    def ground(self, angle: float = 0.0, edges: Sequence[tuple[float, float]] = ()) -> None:
+        """The ground of the whole model: it rises forwards by an angle (rad) and has steps at its edges.
+
+        An edge is a position along it and the height behind it, in m. `push` and `position_of` of
+        the part around this one count from it if they are given this one's name.
+        """
+        add_surface(self.spec, self._name("surface"), angle, self._info)
+        add_ground(self.spec, angle, edges, self._info)
+
     def collide(self, place: Point, radius: float, friction: float, solref: Vector, solimp: Vector) -> Element:
-        """A sphere that MuJoCo keeps out of the level ground at height 0; gives its touch sensor (N)."""
-        ground = "world.ground"
-        if all(geom.name != ground for geom in self.spec.geoms):
-            plane = mujoco.mjtGeom.mjGEOM_PLANE
-            self.spec.worldbody.add_geom(name=ground, type=plane, size=[10, 10, 0.1], contype=1, conaffinity=0)
+        """A sphere that MuJoCo keeps out of the ground; gives a sensor of its force on the ground, in N."""
+        # With the pyramidal cone the depth at rest would depend on friction: 1.6 to 100 mm for 0.5 to 2.
+        self.spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+        sphere = self._name("sphere")
         place.body.add_geom(
-            name=self._name("sphere"),
+            name=sphere,
             type=mujoco.mjtGeom.mjGEOM_SPHERE,
             pos=list(place.position),
             size=[float(radius), 0, 0],
@@ -245,21 +222,54 @@ class Mechanics:
             solimp=[float(v) for v in solimp],
             info=self._info,
         )
-        site = self._site("zone", place, radius=1.1 * float(radius))
-        return self._sensor("touch", mujoco.mjtSensor.mjSENS_TOUCH, site)
+        sensor = self._sensor("touch", mujoco.mjtSensor.mjSENS_CONTACT, sphere, mujoco.mjtObj.mjOBJ_GEOM)
+        made = self.spec.sensor(sensor.name)
+        made.intprm = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]  # the force alone, net of all contacts
+        return sensor
 
-    def position_of(self, place: Point) -> Element:
-        """A sensor of where a place is in the world: three numbers, in m."""
-        return self._sensor("position", mujoco.mjtSensor.mjSENS_FRAMEPOS, self._site("origin", place))
+    def touches(self, place: Point, radius: float = 0.0) -> None:
+        """Tell that the ground carries the body here: a point, or a sphere of a radius in m."""
+        self.touching.append(Touching(place.body.name, place.position, float(radius)))
 
-    def _sensor(self, suffix: str, kind: Any, site: str) -> Element:
+    def stands_on(self, lift: Element) -> None:
+        """Let this vertical joint put the lowest place that touches on the ground, unless `initial:` sets it."""
+        self.lifts.append(lift.name)
+
+    def position_of(self, place: Point, surface: str = "", suffix: str = "position") -> Element:
+        """A sensor of where a place is in the world, or on the ground of an inner part: three numbers, in m."""
+        sensor = self._sensor(suffix, mujoco.mjtSensor.mjSENS_FRAMEPOS, self._site(f"{suffix}.origin", place))
+        if surface:
+            made = self.spec.sensor(sensor.name)
+            made.reftype, made.refname = mujoco.mjtObj.mjOBJ_SITE, self._name(f"{surface}.surface")
+        return sensor
+
+    def orientation_of(self, place: Point) -> tuple[Element, Element]:
+        """Sensors of a place's own z axis in the world, and of its angular velocity there in rad/s."""
+        site = self._site("axis", place)
+        axis = self._sensor("direction", mujoco.mjtSensor.mjSENS_FRAMEZAXIS, site)
+        return axis, self._sensor("angular_velocity", mujoco.mjtSensor.mjSENS_FRAMEANGVEL, site)
+
+    def center_of_mass(self) -> tuple[Element, Element]:
+        """Sensors of where the center of mass of all that moves is, in m, and of its velocity."""
+        body = mujoco.mjtObj.mjOBJ_BODY
+        position = self._sensor("position", mujoco.mjtSensor.mjSENS_SUBTREECOM, "world", body)
+        return position, self._sensor("velocity", mujoco.mjtSensor.mjSENS_SUBTREELINVEL, "world", body)
+
+    def _sensor(self, suffix: str, kind: Any, of: str, what: Any = mujoco.mjtObj.mjOBJ_SITE) -> Element:
         name = self._name(suffix)
-        self.spec.add_sensor(name=name, type=kind, objtype=mujoco.mjtObj.mjOBJ_SITE, objname=site, info=self._info)
+        self.spec.add_sensor(name=name, type=kind, objtype=what, objname=of, info=self._info)
         return Element("sensor", name)
 
-    def motor(self, element: Element) -> Element:
-        """An actuator whose control is a force along a tendon (positive lengthens) or at a joint."""
-        name = self._name("motor")
+    def motor(
+        self, element: Element, suffix: str = "motor", gain: Vector = (1, 0), limits: Vector | None = None
+    ) -> Element:
+        """An actuator along a tendon (positive lengthens) or at a joint.
+
+        Its force is control * (gain[0] + gain[1] * velocity), kept within limits. The part with the
+        velocity is solved for the velocity at the end of the step, so that a strong damper on a
+        light segment stays a damper.
+        """
+        name = self._name(suffix)
         transmission = {
             "tendon": mujoco.mjtTrn.mjTRN_TENDON,
             "joint": mujoco.mjtTrn.mjTRN_JOINT,
@@ -267,12 +277,12 @@ class Mechanics:
         actuator = self.spec.add_actuator(
             name=name, trntype=transmission, target=element.name, info=self._info
         )
-        actuator.set_to_motor()
+        _drive(actuator, gain, limits)
         return Element("actuator", name)
 
     def read(self, port: str, element: Element, field_name: str, index: int = 0) -> None:
         """Let an output be a number of MuJoCo's data: qpos, ten_length, actuator_velocity, sensordata ..."""
-        self.reads.append(_tie(port, element, field_name, index))
+        self.reads.append(tied(port, element, field_name, index))
 
     def read_energy(self, potential: str, kinetic: str) -> None:
         """Let two outputs be MuJoCo's potential and kinetic energy."""
@@ -281,14 +291,25 @@ class Mechanics:
 
     def read_weight(self, port: str) -> None:
         """Let an output be the weight of everything that moves, in N."""
+        self._read_constant(port, lambda model: -float(model.opt.gravity[2] * model.body_subtreemass[0]))
+
+    def read_key(self, port: str) -> None:
+        """Let an output be a whole number below 2^32 that this part's address gives.
+
+        Two parts with one seed draw different numbers if they are keyed by it.
+        """
+        key = float(zlib.crc32(self.part.address.encode()))
+        self._read_constant(port, lambda model: key)
+
+    def _read_constant(self, port: str, of: Callable[[Any], float]) -> None:
         place = max(self.spec.nuserdata, 0)
         self.spec.nuserdata = place + 1
         self.reads.append(Tie(port, None, "userdata", place))
-        self.constants.append(lambda model: -float(model.opt.gravity[2] * model.body_subtreemass[0]))
+        self.constants.append(of)
 
     def apply(self, port: str, element: Element, field_name: str, sign: float = 1.0) -> None:
         """Write an input or output into MuJoCo's data: qfrc_applied of a joint, ctrl of an actuator."""
-        self.applies.append(_tie(port, element, field_name, 0, sign))
+        self.applies.append(tied(port, element, field_name, 0, sign))
 
     def draw_sphere(self, position: Vector, radius: float) -> None:
         """A massless sphere to look at."""
@@ -301,6 +322,34 @@ class Mechanics:
         ends = [*self._mirrored(start), *self._mirrored(end)]
         self._draw(type=mujoco.mjtGeom.mjGEOM_CAPSULE, fromto=ends, size=[float(radius), 0, 0])
 
+    def draw_line(self, points: Sequence[Point | Moved], radius: float) -> None:
+        """A line to look at where there is no body, such as a massless leg; radius in m."""
+        moved = tuple(place if isinstance(place, Moved) else Moved(place) for place in points)
+        for way in (way for place in moved for way in (place.forward, place.up) if way is not None):
+            self._check_output("draw_line", way[0])
+        self.drawings.append(DrawnLine(moved, float(radius)))
+
+    def moved(
+        self, place: Point, forward: tuple[str, float] | None = None, up: tuple[str, float] | None = None
+    ) -> Moved:
+        """For `draw_line`: a place moved in the world by outputs in m, such as up=("length", -0.5)."""
+        return Moved(place, forward, up)
+
+    def draw_force(
+        self, place: Point, up: str | None = None, forward: str | None = None, surface: str = ""
+    ) -> None:
+        """An arrow to look at: the force on a place, from outputs in N along axes as `push` has them."""
+        for port in (port for port in (up, forward) if port is not None):
+            self._check_output("draw_force", port)
+        site = self._name(f"{surface}.surface") if surface else ""
+        self.drawings.append(DrawnForce(place, forward, up, site))
+
+    def _check_output(self, call: str, port: str) -> None:
+        outputs = self.part.type.outputs
+        if port not in outputs:
+            hint = did_you_mean(port, outputs)
+            raise ValueError(f"mj.{call} names {port}, which is declared as no output. {hint}")
+
     def _draw(self, **shape: Any) -> None:
         self.own_body.add_geom(**self._massless, **shape)
 
@@ -309,12 +358,16 @@ class Mechanics:
         return {"contype": 0, "conaffinity": 0, "mass": 0, "info": self._info}
 
 
-def _tie(port: str, element: Element, field_name: str, index: int, sign: float = 1.0) -> Tie:
-    """A port tied to a number that such an element has. Errors: ValueError."""
-    known = _FIELDS.get(element.kind, ())
-    if field_name not in known:
-        raise ValueError(f"{with_article(element.kind)} has no {field_name}. {did_you_mean(field_name, known)}")
-    return Tie(port, element, field_name, index, sign)
+def _drive(actuator: Any, gain: Vector, limits: Vector | None) -> None:
+    """Set how an actuator's force follows from its control; see `Mechanics.motor`."""
+    actuator.set_to_motor()
+    if gain[1]:
+        actuator.gaintype = mujoco.mjtGain.mjGAIN_AFFINE
+        actuator.gainprm[:3] = [float(gain[0]), 0, float(gain[1])]
+    else:
+        actuator.gainprm[0] = float(gain[0])
+    if limits is not None:
+        actuator.forcelimited, actuator.forcerange = True, [float(limit) for limit in limits]
 
 
 def numbers_of(part: Part, values: Sequence[float], frames: Frames) -> SimpleNamespace:
@@ -332,8 +385,3 @@ def numbers_of(part: Part, values: Sequence[float], frames: Frames) -> SimpleNam
 
 def _mirrored_point(at: Vector, mirrored: bool) -> Vector:
     return (at[0], -at[1], at[2]) if mirrored else at
-
-
-def world_frames(spec: Any) -> Frames:
-    """The frames that are there before any part: the ground."""
-    return Frames({WORLD: Point(spec.worldbody, (0.0, 0.0, 0.0))})

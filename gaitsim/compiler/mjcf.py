@@ -9,7 +9,9 @@ from typing import Any
 
 import mujoco
 
-from gaitsim.compiler.mechanics import Mechanics, Point, Tie, numbers_of, world_frames
+from gaitsim.compiler.mechanics import Mechanics, numbers_of
+from gaitsim.compiler.places import DrawnForce, DrawnLine, Point, Touching, world_frames
+from gaitsim.compiler.ties import Tie
 from gaitsim.errors import Fault, Faults, InvalidComponent, InvalidSpec
 from gaitsim.model import WORLD, Model, Part
 from gaitsim.parts.load import function_of, raised
@@ -24,7 +26,8 @@ _INTEGRATORS = {
 class Assembly:
     """A MuJoCo model and the ties between it and the ports of parts: (part's index, tie).
 
-    Constants are what parts read of the compiled model; they lie in MuJoCo's userdata.
+    Constants are what parts read of the compiled model; they lie in MuJoCo's userdata. Drawings are
+    what parts want to be seen beside their bodies.
     """
 
     spec: Any
@@ -32,6 +35,9 @@ class Assembly:
     reads: tuple[tuple[int, Tie], ...]
     applies: tuple[tuple[int, Tie], ...]
     constants: tuple[float, ...]
+    drawings: tuple[tuple[int, DrawnLine | DrawnForce], ...]
+    touching: tuple[Touching, ...]
+    lifts: tuple[str, ...]
 
     @property
     def xml(self) -> str:
@@ -47,9 +53,9 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
     """
     spec = mujoco.MjSpec()
     spec.modelname = model.name
+    spec.compiler.degree = False
     spec.option.timestep = model.simulate.step
     spec.option.gravity = [0, 0, -model.simulate.gravity]
-    spec.option.integrator = _INTEGRATORS[model.simulate.integrator]
     # A state that is not finite is a failed candidate, never a silent reset.
     spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     index = {part.address: i for i, part in enumerate(model.parts)}
@@ -57,6 +63,9 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
     reads: list[tuple[int, Tie]] = []
     applies: list[tuple[int, Tie]] = []
     constants: list[Callable[[Any], float]] = []
+    drawings: list[tuple[int, DrawnLine | DrawnForce]] = []
+    touching: list[Touching] = []
+    lifts: list[str] = []
 
     def build(part: Part, body: Any = None) -> None:
         mechanics = Mechanics(spec, part, frames, body)
@@ -68,6 +77,9 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
         reads.extend((index[part.address], tie) for tie in mechanics.reads)
         applies.extend((index[part.address], tie) for tie in mechanics.applies)
         constants.extend(mechanics.constants)
+        drawings.extend((index[part.address], drawing) for drawing in mechanics.drawings)
+        touching.extend(mechanics.touching)
+        lifts.extend(mechanics.lifts)
 
     order = body_order(model)
     for segment, joint in order:
@@ -83,7 +95,20 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
         if "build" in part.type.functions and part.address not in done:
             build(part)
     compiled = _compiled(spec, {str(part.mark): part for part in model.parts})
-    return Assembly(spec, compiled, tuple(reads), tuple(applies), tuple(of(compiled) for of in constants))
+    spec.option.integrator = compiled.opt.integrator = _integrator(model, compiled)
+    known = tuple(of(compiled) for of in constants)
+    return Assembly(spec, compiled, tuple(reads), tuple(applies), known, tuple(drawings), tuple(touching), tuple(lifts))
+
+
+def _integrator(model: Model, compiled: Any) -> Any:
+    """The chosen one; or by itself Euler, unless an actuator has a force that depends on velocity."""
+    if model.simulate.integrator != "automatic":
+        return _INTEGRATORS[model.simulate.integrator]
+    if not compiled.actuator_gainprm[:, 2].any():
+        return _INTEGRATORS["euler"]
+    # Of a body alone MuJoCo keeps a diagonal mass matrix; implicitfast then drops how damping couples its coordinates.
+    alone = compiled.body_simple[1:].any()
+    return mujoco.mjtIntegrator.mjINT_IMPLICIT if alone else _INTEGRATORS["implicitfast"]
 
 
 def body_order(model: Model) -> list[tuple[Part, Part]]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from gaitsim.compiler.graph import Call, schedule
 from gaitsim.errors import Faults, SimulationFailed
-from gaitsim.model import Connection, Model, Part
+from gaitsim.model import Connection, Model, Part, recorded_signals
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -64,7 +64,8 @@ class Program:
 
     @cached_property
     def parameters(self) -> Layout:
-        return _layout([dict.fromkeys(p.type.parameters, 1) for p in self.model.parts])
+        sizes = [{n: s.size for n, s in p.type.series.items()} for p in self.model.parts]
+        return _layout([dict.fromkeys(p.type.parameters, 1) | s for p, s in zip(self.model.parts, sizes, strict=True)])
 
     @cached_property
     def inputs(self) -> Layout:
@@ -105,7 +106,7 @@ class Program:
                 continue
             number = self.model.numbers[connection.delay]
             free = self.model.free[number.free] if number.free is not None else None
-            low = free.low if free else self.model.values()[connection.delay]
+            low = free.low if free else self._starts[connection.delay]
             if low < step * (1 - 1e-9):
                 move = f"begin tune at {step:g} s or above" if free else "write 0 s or a longer delay"
                 rule = f"{low:g} s is shorter than one step of {step:g} s; {move}"
@@ -129,16 +130,19 @@ class Program:
 
     @cached_property
     def signals(self) -> tuple[str, ...]:
-        """The address of every output, in the order of the table."""
-        return tuple(f"{p.address}.{n}" for p in self.model.parts for n in p.type.outputs)
+        """What a trajectory has: the addresses of `recorded_signals`."""
+        return tuple(signal.address for signal in recorded_signals(self.model))
 
     @cached_property
     def signal_places(self) -> Integers:
-        """Where each signal lies in the table of outputs."""
-        return np.array(
-            [self.outputs.place(i, n) for i, p in enumerate(self.model.parts) for n in p.type.outputs],
-            dtype=np.int64,
-        )
+        """Where each signal lies: in the table of outputs, or behind it in that of the states."""
+        found = []
+        for signal in recorded_signals(self.model):
+            part, name = self.port(signal.address)
+            of_states = name in self.model.parts[part].type.states
+            place = self.outputs.size + self.states.place(part, name) if of_states else self.outputs.place(part, name)
+            found.append(place)
+        return np.array(found, dtype=np.int64)
 
     def port(self, address: str) -> tuple[int, str]:
         """A port's part and name."""
@@ -156,6 +160,9 @@ class Program:
             for name, number in part.numbers.items():
                 if name in part.type.parameters:
                     table[self.parameters.place(i, name)] = values[number]
+            for name, recording in part.series.items():
+                begin = self.parameters.place(i, name)
+                table[begin : begin + len(recording.values)] = recording.values
         return table
 
     def input_base(self, values: Sequence[float]) -> Floats:
@@ -194,7 +201,12 @@ class Program:
         """Whether a connection has a delay; a fixed delay of zero is none."""
         if connection.delay is None:
             return False
-        return self._varying[connection.delay] or self.model.values()[connection.delay] != 0
+        return self._varying[connection.delay] or self._starts[connection.delay] != 0
+
+    @cached_property
+    def _starts(self) -> list[float]:
+        """Every number at the start of a search."""
+        return self.model.values()
 
     @cached_property
     def _varying(self) -> tuple[bool, ...]:

@@ -96,3 +96,10 @@ ALGORITHMS: dict[str, Callable[[Problem, int, int | None], Algorithm]] = {
     "cma": CmaEs,
     **{name: partial(Pymoo, name) for name in ("ga", "pso", "de")},
 }
+# What a paper cites that used one: keys of library/references.bib.
+SOURCES: dict[str, tuple[str, ...]] = {
+    "cma": ("hansen2001", "hansen2019"),
+    "ga": ("blank2020",),
+    "pso": ("kennedy1995", "blank2020"),
+    "de": ("storn1997", "blank2020"),
+}

@@ -22,7 +22,11 @@ class Candidate:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What an evaluation found: status as of a run, or `killed` or `timeout`."""
+    """What an evaluation found: status as of a run, or `killed` or `timeout`.
+
+    With several episodes: seconds and steps of all together, metrics of the first, and of each its
+    status, score and steps.
+    """
 
     status: str
     reason: str
@@ -30,6 +34,7 @@ class Verdict:
     metrics: Mapping[str, float | None]
     simulated_seconds: float
     steps: int
+    episodes: tuple[Mapping[str, Any], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -58,7 +63,10 @@ class Evaluation:
             "hash": hash_of(place.x),
             "x": list(place.x),
         }
-        return json.dumps(head | asdict(self.verdict), allow_nan=False)
+        found = asdict(self.verdict)
+        if not self.verdict.episodes:
+            del found["episodes"]
+        return json.dumps(head | found, allow_nan=False)
 
 
 def evaluation_of(data: Mapping[str, Any]) -> Evaluation:
@@ -71,5 +79,6 @@ def evaluation_of(data: Mapping[str, Any]) -> Evaluation:
         dict(data["metrics"]),
         float(data["simulated_seconds"]),
         int(data["steps"]),
+        tuple(dict(episode) for episode in data.get("episodes", ())),
     )
     return Evaluation(candidate, verdict)

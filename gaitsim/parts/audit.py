@@ -17,7 +17,7 @@ from dataclasses import dataclass
 from types import FrameType, SimpleNamespace
 from typing import Any
 
-from gaitsim.component import Component, Input, Metric, Output, Parameter, State
+from gaitsim.component import Component, Input, Metric, Output, Parameter, Series, State
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark
 from gaitsim.parts.check import SIGNATURES, class_functions, parse, place
 from gaitsim.parts.declaration import unit_rule
@@ -27,7 +27,7 @@ _DECISIONS = 40  # on one path; only a loop that counts in plain numbers comes n
 _PATHS = 2000  # of one function
 _STATEMENTS = 50_000  # of one function, over all its paths
 _RAISE = dis.opmap["RAISE_VARARGS"]
-_KINDS = {"p": Parameter, "u": Input, "x": State, "y": Output, "m": Metric}
+_KINDS = {"p": Parameter | Series, "u": Input, "x": State, "y": Output, "m": Metric}
 # The unit of the result follows from the arguments; all other functions are plain to plain.
 _ALIKE = {"hypot": True, "fmod": True, "remainder": True, "atan2": False, "isclose": False}
 _ROOTS = {"sqrt": 1 / 2, "cbrt": 1 / 3}
@@ -395,11 +395,11 @@ def _shape(value: Any) -> Any:
 def _record(search: _Search, component: type[Component], letter: str) -> Record:
     fields = {}
     for name, one in component.declarations.items():
-        if isinstance(one, Parameter | Input | State | Output | Metric):
+        if isinstance(one, Parameter | Series | Input | State | Output | Metric):
             if not isinstance(one, _KINDS[letter]):
                 continue
             unit = parse_unit(one.unit)
-            size = one.size if isinstance(one, State) else None
+            size = one.size if isinstance(one, State | Series) else None
             dimension = search.dimensions.one(unit.dimension)
             fields[name] = _Field(f"{letter}.{name}", unit, dimension, size)
     return Record(search, letter, fields)

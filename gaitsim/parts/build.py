@@ -16,6 +16,7 @@ _NAMED: Mapping[str, tuple[int, tuple[type, ...], str]] = {
     "read": (1, (Output,), "output"),
     "read_energy": (2, (Output,), "output"),
     "read_weight": (1, (Output,), "output"),
+    "read_key": (1, (Output,), "output"),
     "apply": (1, (Input, Output), "input or output"),
 }
 

@@ -8,9 +8,10 @@ import copy
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from gaitsim.component import Declaration, Frame, Input, Metric, Option, Output, Parameter, Points, State
+from gaitsim.component import Curve, Declaration, Frame, Input, Metric, Option, Output, Parameter, Points, Series, State
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark, did_you_mean, nearest
 from gaitsim.parts.build import build_faults, placed
+from gaitsim.parts.curve import curve_faults
 from gaitsim.parts.declaration import field_faults, unknown_fields
 
 SIGNATURES: Mapping[str, tuple[str, ...]] = {
@@ -22,7 +23,7 @@ SIGNATURES: Mapping[str, tuple[str, ...]] = {
 }
 _LETTERS = {"p": Parameter, "u": Input, "x": State, "y": Output, "m": Metric}
 _SAID = {Parameter: "a parameter", Input: "an input", State: "a state", Output: "an output"}
-_SAID |= {Metric: "a metric", Points: "a list of points", Option: "an option"}
+_SAID |= {Metric: "a metric", Points: "a list of points", Option: "an option", Series: "a series"}
 _READ_ONLY = {"p": "parameters are read only.", "u": "inputs are read only."}
 _WRITERS = {"x": ("start", "update"), "y": ("output",), "m": ("finish",)}
 _FORBIDDEN = {"open", "exec", "eval", "__import__"}
@@ -140,6 +141,7 @@ class _Check:
     ) -> None:
         self.known, self.file, self.lines, self.faults = known, file, lines, Faults()
         self.functions = class_functions(tree)
+        self.helpers = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
         constants = [n for n in tree.body if isinstance(n, ast.Import | ast.Assign | ast.AnnAssign)]
         self.globals = {name for node in constants for name in _bound(node)}
         self.globals |= {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
@@ -154,7 +156,10 @@ class _Check:
 
     def declared(self) -> None:
         for name, one in self.known.items():
-            for message in field_faults(name, one):
+            faults = list(field_faults(name, one))
+            if isinstance(one, Curve) and not faults:
+                faults = list(curve_faults(name, one, self.known, self.helpers))
+            for message in faults:
                 self.add(message, self.places.get(name))
 
     def signature(self, name: str, function: ast.FunctionDef) -> bool:
@@ -203,7 +208,7 @@ class _Check:
 
     def undeclared(self, letter: str, function: str, node: ast.Attribute) -> bool:
         one, text = self.known.get(node.attr), f"{letter}.{node.attr}"
-        kinds = (Parameter, Points, Option) if letter == "p" else (_LETTERS[letter],)
+        kinds = (Parameter, Points, Series, Option) if letter == "p" else (_LETTERS[letter],)
         if one is None:
             names = [name for name, other in self.known.items() if isinstance(other, kinds)]
             hint = _hint(node.attr, names, letter)

@@ -22,7 +22,7 @@ def kind_faults(component: ComponentFile, contract: Path, file: str, named: str 
     """
     named = named or str(contract)
     faults = []
-    for section, units in _contract(contract, named).items():
+    for section, units in read_contract(contract, named).items():
         offered = _offered(component, section)
         for name, unit in units.items():
             has = offered.get(name)
@@ -36,8 +36,11 @@ def kind_faults(component: ComponentFile, contract: Path, file: str, named: str 
     return faults
 
 
-def _contract(path: Path, named: str) -> dict[str, dict[str, str]]:
-    """Names and units by section."""
+def read_contract(path: Path, named: str) -> dict[str, dict[str, str]]:
+    """What a kind.yaml asks for: names and units by section.
+
+    Errors: InvalidSpec if it breaks a rule.
+    """
     faults = Faults()
     document = respelled(read(path, named), ("about", *_SECTIONS), "a kind has no section", faults)
     found: dict[str, dict[str, str]] = {}

@@ -9,7 +9,19 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from gaitsim import component
-from gaitsim.component import Declaration, Input, Metric, Option, Output, Parameter, Points, State
+from gaitsim.component import (
+    Curve,
+    Declaration,
+    Input,
+    Metric,
+    Option,
+    Output,
+    Parameter,
+    Points,
+    Series,
+    State,
+    StepLimit,
+)
 from gaitsim.errors import did_you_mean
 from gaitsim.units import UnknownUnit, known_units, parse_unit
 
@@ -31,8 +43,12 @@ def _is_optional_text_or_number(value: Any) -> bool:
     return value is None or isinstance(value, str) or _number(value)
 
 
+def _numbers(value: Any) -> bool:
+    return isinstance(value, tuple) and bool(value) and all(map(_number, value))
+
+
 # Of each field: what it may be, and how that is said.
-_FIELDS: Mapping[str, tuple[Any, str]] = {
+_FIELDS: dict[str, tuple[Any, str]] = {
     "unit": (lambda v: isinstance(v, str), 'a unit in quotes, such as "N m"'),
     "doc": (lambda v: isinstance(v, str), "a text in quotes"),
     "source": (lambda v: isinstance(v, str), "a text in quotes"),
@@ -45,13 +61,34 @@ _FIELDS: Mapping[str, tuple[Any, str]] = {
     "size": (lambda v: v is None or (type(v) is int and v > 0), "a whole number above 0"),
     "levels": (_texts, 'names in brackets, such as ("swing", "stance")'),
     "choices": (lambda v: _texts(v) and bool(v), 'words in brackets, such as ("first", "second")'),
+    "value": (lambda v: _number(v) and v > 0, "a number above 0"),
     "sums": (lambda v: isinstance(v, bool), "True or False"),
     "reads": (
         lambda v: isinstance(v, tuple) and all(_texts(pair) and len(pair) == 2 for pair in v),
         'pairs of names in brackets, such as (("length", "path_length"),)',
     ),
 }
-_FIELDS = {**_FIELDS, "sends": _FIELDS["reads"]}
+_FIELDS = {
+    **_FIELDS,
+    "of": (lambda v: isinstance(v, str), "an output or a function of this file, in quotes"),
+    "over": (lambda v: isinstance(v, str), "a name in quotes"),
+    "span": (lambda v: _numbers(v) and len(v) == 2 and all(map(math.isfinite, v)), "two numbers in brackets"),
+    "at": (
+        lambda v: isinstance(v, Mapping) and all(isinstance(x, str) or _number(x) for x in v.values()),
+        'values by name, such as {"load": 0.5}',
+    ),
+    "each": (
+        lambda v: v is None or (isinstance(v, tuple) and len(v) == 2 and isinstance(v[0], str) and _numbers(v[1])),
+        'a name and its values, such as ("activation", (0.1, 1))',
+    ),
+    "steps": (
+        lambda v: isinstance(v, Mapping) and all(map(_numbers, v.values())),
+        'values one after the other, such as {"excitation": (0, 1, 0)}',
+    ),
+    "over_unit": _FIELDS["unit"],
+    "inverse": _FIELDS["sums"],
+}
+_FIELDS |= {"sends": _FIELDS["reads"], "gives": _FIELDS["reads"], "optional": _FIELDS["sums"]}
 
 
 def field_faults(name: str, one: Declaration) -> Iterator[str]:
@@ -64,11 +101,14 @@ def field_faults(name: str, one: Declaration) -> Iterator[str]:
         if not fits(value):
             yield f"{name}: {field.name} is {value!r}; write {wanted}."
             return
-    if isinstance(one, Parameter | Input | Output | State | Metric | Points):
+    if isinstance(one, Parameter | Input | Output | State | Metric | Points | Series | StepLimit | Curve):
         try:
-            parse_unit(one.unit)
+            unit = parse_unit(one.unit)
         except UnknownUnit:
             yield f"{name}: {unit_rule(one.unit)}"
+        else:
+            if isinstance(one, StepLimit) and unit.dimension != parse_unit("s").dimension:
+                yield f'{name}: {one.unit} is no unit of time; write such as StepLimit("ms", "...", 0.5).'
     if isinstance(one, Parameter) and one.bounds is not None:
         low, high = one.bounds
         if low > high:

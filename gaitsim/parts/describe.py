@@ -12,14 +12,18 @@ from gaitsim.parts.primitive import Primitive
 _SECTIONS = (
     "parameters",
     "points",
+    "series",
     "options",
     "attachments",
     "frames",
+    "links",
     "inputs",
     "outputs",
     "states",
     "metrics",
     "parts",
+    "step_limits",
+    "curves",
 )
 
 

@@ -10,6 +10,7 @@ from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean,
 from gaitsim.parts.composite import ComponentFile, load_composite
 from gaitsim.parts.contract import kind_faults
 from gaitsim.parts.load import as_lines, digest_of, load_primitive
+from gaitsim.parts.table import Table, load_table
 from gaitsim.spec.document import text_of
 
 _LOADERS: dict[str, Callable[[str, Path, str], ComponentFile]] = {
@@ -18,11 +19,26 @@ _LOADERS: dict[str, Callable[[str, Path, str], ComponentFile]] = {
 }
 
 
+KIND = "kind.yaml"  # the contract of a kind
+SKELETON = "_skeleton.py"  # what `gaitsim library new` begins with
+
+
+def is_component(path: Path) -> bool:
+    """Whether a file in the folder of a kind is a component that specs can use."""
+    return path.name not in (KIND, SKELETON) and path.suffix in _LOADERS
+
+
 def shipped_folder() -> Path:
     """The library inside the wheel, or the checkout's own."""
     package = Path(__file__).resolve().parents[1]
     inside = package / "shipped" / "library"
     return inside if inside.is_dir() else package.parent / "library"
+
+
+def shipped_specs() -> dict[str, Path]:
+    """The specs inside the wheel, or the checkout's own, by name; tuned values are not among them."""
+    folder = shipped_folder().parent / "specs"
+    return {path.stem: path for path in sorted(folder.glob("*.yaml")) if not path.stem.endswith(".tuned")}
 
 
 def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path, ...]:
@@ -41,6 +57,7 @@ class Library:
     folders: tuple[Path, ...]
     notices: list[str] = field(default_factory=list)
     _loaded: dict[str, ComponentFile] = field(default_factory=dict)
+    _tables: dict[str, Table] = field(default_factory=dict)
 
     def find(self, reference: str) -> ComponentFile:
         """The component of a reference such as muscle/geyer2003.
@@ -60,17 +77,37 @@ class Library:
             for folder in self.folders
             for suffix in _LOADERS
             for path in folder.glob(f"{kind}/*{suffix}")
-            if path.stem != "kind"
+            if is_component(path)
         }
         return sorted(found)
+
+    def path(self, reference: str) -> Path | None:
+        """The file of a reference, loaded or not."""
+        return next(iter(self._files(reference)), None)
 
     def used(self) -> dict[str, ComponentFile]:
         """What has been loaded, by reference."""
         return dict(sorted(self._loaded.items()))
 
+    def table(self, reference: str) -> Table:
+        """The table of recorded curves of a reference such as norms/fukuchi2018_walking.
+
+        Errors: InvalidSpec.
+        """
+        if reference not in self._tables:
+            paths = {f"{p.parent.name}/{p.stem}": p for f in reversed(self.folders) for p in sorted(f.glob("*/*.csv"))}
+            if reference not in paths:
+                raise InvalidSpec(Fault(f"there is no table {reference}. {did_you_mean(reference, paths)}"))
+            self._tables[reference] = load_table(paths[reference], shown(paths[reference]))
+        return self._tables[reference]
+
+    def used_tables(self) -> dict[str, Table]:
+        """The tables that have been read, by reference."""
+        return dict(sorted(self._tables.items()))
+
     def kind_file(self, kind: str) -> Path | None:
         """The contract of a kind, if there is one."""
-        return next((f / kind / "kind.yaml" for f in self.folders if (f / kind / "kind.yaml").is_file()), None)
+        return next((f / kind / KIND for f in self.folders if (f / kind / KIND).is_file()), None)
 
     def _load(self, reference: str) -> ComponentFile:
         files = self._files(reference)

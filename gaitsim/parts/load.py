@@ -9,14 +9,16 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
-from gaitsim.component import Component, Input, Output, Part
+from gaitsim.component import Component, Input, Link, Output, Parameter, Part
 from gaitsim.errors import Fault, InvalidComponent, Mark, did_you_mean
 from gaitsim.parts.audit import audit
+from gaitsim.parts.audited import is_sound, remember
 from gaitsim.parts.check import check_names, declaration_marks, parse
 from gaitsim.parts.dependency import output_dependencies
 from gaitsim.parts.ieee import ieee_math
 from gaitsim.parts.primitive import Primitive
 from gaitsim.spec.document import text_of
+from gaitsim.spec.expression import BadExpression, parse_expression
 
 FUNCTIONS = ("start", "output", "update", "finish", "build")
 
@@ -42,8 +44,10 @@ def load_primitive(reference: str, path: Path, shown: str) -> Primitive:
     faults = check_names(tree, cls.declarations, shown, source.splitlines())
     if not faults:
         faults = _part_faults(cls, declaration_marks(tree, shown, source.splitlines()))
-    if not faults:
+    if not faults and not is_sound(source):
         faults = list(audit(source, shown).faults)
+        if not faults:
+            remember(source)
     if faults:
         raise InvalidComponent(faults)
     return Primitive(
@@ -115,12 +119,19 @@ def _part_faults(cls: type[Component], marks: Mapping[str, Mark]) -> list[Fault]
     """Wiring of inner parts that names ports this component does not have."""
     inputs = [name for name, d in cls.declarations.items() if isinstance(d, Input)]
     outputs = [name for name, d in cls.declarations.items() if isinstance(d, Output)]
+    parameters = {name: d for name, d in cls.declarations.items() if isinstance(d, Parameter)}
     faults = []
     for name, part in cls.declarations.items():
-        if isinstance(part, Part):
+        if isinstance(part, Part | Link):
             wrong = [mine for mine, _ in part.reads if mine not in inputs]
             wrong += [mine for _, mine in part.sends if mine not in inputs + outputs]
             for word in wrong:
                 hint = did_you_mean(word, inputs + outputs)
                 faults.append(Fault(f"{name} is wired to {word}, which is not declared. {hint}", marks[name]))
+        if isinstance(part, Part):
+            for theirs, text in part.gives:
+                try:
+                    parse_expression(text, "*", {n: (0, p.unit) for n, p in parameters.items()})
+                except BadExpression as error:
+                    faults.append(Fault(f"{name} is given {theirs}: {error}", marks[name]))
     return faults

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,6 +11,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from gaitsim import component as c
+from gaitsim.units import parse_unit, scaled
 
 D = TypeVar("D")
 
@@ -56,6 +58,10 @@ class Primitive:
         return self.declared(c.Part)
 
     @cached_property
+    def links(self) -> dict[str, c.Link]:
+        return self.declared(c.Link)
+
+    @cached_property
     def frames(self) -> dict[str, c.Frame]:
         return self.declared(c.Frame)
 
@@ -68,8 +74,25 @@ class Primitive:
         return self.declared(c.Points)
 
     @cached_property
+    def series(self) -> dict[str, c.Series]:
+        return self.declared(c.Series)
+
+    @cached_property
     def options(self) -> dict[str, c.Option]:
         return self.declared(c.Option)
+
+    @cached_property
+    def step_limits(self) -> dict[str, c.StepLimit]:
+        return self.declared(c.StepLimit)
+
+    @cached_property
+    def curves(self) -> dict[str, c.Curve]:
+        return self.declared(c.Curve)
+
+    @property
+    def largest_step(self) -> float:
+        """The largest step in seconds at which it is right; infinite if none was declared."""
+        return min((scaled(d.value, parse_unit(d.unit).factor) for d in self.step_limits.values()), default=math.inf)
 
     @property
     def kind(self) -> str:
@@ -82,5 +105,5 @@ class Primitive:
     @property
     def words(self) -> list[str]:
         """What an entry of a spec may say to this part."""
-        said = c.Parameter | c.Input | c.Attachment | c.Points | c.Option | c.Part
+        said = c.Parameter | c.Input | c.Link | c.Attachment | c.Points | c.Series | c.Option | c.Part
         return list(self.declared(said))  # type: ignore[arg-type]

@@ -16,6 +16,7 @@ from gaitsim.spec.inheritance import without_marked
 from gaitsim.spec.resolve import resolve
 
 SPEC, COMPONENTS, START = "spec.yaml", "components", "start.json"
+_SUFFIXES = (".py", ".yaml", ".csv")
 
 
 @dataclass(frozen=True)
@@ -57,12 +58,14 @@ def bundled(
         contract = library.kind_file(component.kind)
         if contract:
             files[f"{COMPONENTS}/{component.kind}/kind.yaml"] = contract.read_text(encoding="utf-8")
+    for reference, table in library.used_tables().items():
+        files[f"{COMPONENTS}/{reference}{table.path.suffix}"] = table.source
     return Bundle(name, files)
 
 
 def read_bundle(folder: Path, name: str) -> Bundle:
     """The bundle that lies in a result folder. Errors: OSError, UnicodeDecodeError."""
-    paths = [path for path in sorted((folder / COMPONENTS).rglob("*")) if path.suffix in (".py", ".yaml")]
+    paths = [path for path in sorted((folder / COMPONENTS).rglob("*")) if path.suffix in _SUFFIXES]
     paths += [folder / SPEC, *([folder / START] if (folder / START).is_file() else [])]
     return Bundle(name, {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in paths})
 

@@ -37,8 +37,8 @@ def part_rows(model: Model) -> list[dict[str, Any]]:
         if part.attachments:
             row["fastened"] = dict(part.attachments)
         rows.append(row)
-    if model.objective:
-        rows.append({"address": "objective", "use": model.objective.part.type.reference})
+    for each in model.objective.all if model.objective else ():
+        rows.append({"address": each.part.address, "use": each.part.type.reference})
     return rows
 
 
@@ -72,9 +72,10 @@ def connection_rows(model: Model) -> list[dict[str, Any]]:
             row["delay"] = values[connection.delay]
         row["by"] = connection.made_by or str(connection.mark)
         rows.append(row)
-    if model.objective:
+    for each in model.objective.all if model.objective else ():
+        place = each.part
         rows += [
-            {"from": metric, "to": f"objective.{name}", "by": str(model.objective.part.mark)}
-            for name, metric in model.objective.metrics.items()
+            {"from": metric, "to": f"{place.address}.{name}", "by": str(place.mark)}
+            for name, metric in each.metrics.items()
         ]
     return rows

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from gaitsim.errors import GaitsimError
+from gaitsim.exchange.csv import write_csv
 from gaitsim.model import Model
 from gaitsim.results.bundle import Bundle
 from gaitsim.results.listing import model_data
@@ -111,16 +112,8 @@ def save_trajectory(path: Path, outcome: Outcome) -> None:
     """
     trajectory = outcome.trajectory
     assert trajectory is not None
-    header = ["time [s]", *(f"{s} [{u}]" for s, u in zip(trajectory.signals, trajectory.units, strict=True))]
-    draft = path.with_name(f"{path.name}.partial")
     try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        with draft.open("w", encoding="utf-8") as file:
-            file.write(",".join(header) + "\n")
-            for time, row in zip(trajectory.times, trajectory.values, strict=True):
-                file.write(",".join([f"{time:.9g}", *(repr(float(v)) for v in row)]) + "\n")
-        draft.replace(path)
+        write_csv(path, trajectory)
     except OSError as error:
-        draft.unlink(missing_ok=True)
         reason = error.strerror or str(error)
         raise CannotSave(f"{path}: the trajectory cannot be written ({reason}); choose another --out.") from error

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from collections.abc import Mapping as Map
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gaitsim.errors import Fault, Mark
 from gaitsim.optimization.evaluation import Evaluation
 from gaitsim.optimization.journal import evaluations_in
-from gaitsim.results.bundle import bundle_document, bundle_library, bundle_model, bundle_starts
+from gaitsim.results.bundle import bundle_document, bundle_library, bundle_starts
+from gaitsim.results.episodes import bundle_episodes
 from gaitsim.results.manifest import BadResult
+from gaitsim.results.rows import COMPARED, read_rows
 from gaitsim.results.store import row_data
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.inheritance import override
 from gaitsim.spec.resolve import resolve
-
-_COMPARED = ("status", "score", "metrics", "steps")
 
 
 @dataclass(frozen=True)
@@ -39,46 +37,32 @@ def verified(folder: Path, manifest: Map[str, Any], everything: bool) -> Iterato
     if manifest["kind"] == "run":
         yield from _runs(folder, str(manifest["name"]), mode)
         return
-    simulator = Simulator(bundle_model(folder, str(manifest["name"])), mode)
+    episodes = bundle_episodes(folder, str(manifest["name"]), mode)
     # What hung or killed a worker would do so again.
     found = [e for e in evaluations_in(folder) if e.verdict.status not in ("killed", "timeout")]
     if not found:
         raise BadResult(f"{folder}: nothing was evaluated yet, so there is nothing to verify.")
     for evaluation in found if everything else _sample(found):
         place = evaluation.candidate
-        now = row_data({}, simulator.run(place.x))
-        before = evaluation.verdict.__dict__
-        yield Check(f"{place.generation}:{place.index}", _differences(before, now))
+        before, now = vars(evaluation.verdict), vars(episodes.verdict(place.x))
+        yield Check(f"{place.generation}:{place.index}", differences(before, now))
 
 
 def _runs(folder: Path, name: str, mode: Mode) -> Iterator[Check]:
     document, library = bundle_document(folder), bundle_library(folder)
-    for i, row in enumerate(_rows(folder / "evaluations.jsonl")):
+    for i, row in enumerate(read_rows(folder)):
         variant = document
         for address, text in row["settings"].items():
             variant = override(variant, address, text)
         model = resolve(variant, library, name).started_at(bundle_starts(folder))
         now = row_data(row["settings"], Simulator(model, mode).run())
-        yield Check(", ".join(f"{a}={v}" for a, v in row["settings"].items()) or f"run {i}", _differences(row, now))
+        yield Check(", ".join(f"{a}={v}" for a, v in row["settings"].items()) or f"run {i}", differences(row, now))
 
 
-def _rows(path: Path) -> list[dict[str, Any]]:
-    """The runs of a result. Errors: BadResult."""
-    rows: list[dict[str, Any]] = []
-    try:
-        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
-            row = json.loads(line)
-            if not all(isinstance(row[name], dict) for name in ("settings", "metrics")) or not {*_COMPARED} <= {*row}:
-                raise ValueError(f"line {number} is no run")
-            rows.append(row)
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        raise BadResult(Fault(f"this cannot be read ({error}); restore it from a copy.", Mark(str(path)))) from error
-    return rows
-
-
-def _differences(before: Map[str, Any], now: Map[str, Any]) -> tuple[str, ...]:
+def differences(before: Map[str, Any], now: Map[str, Any]) -> tuple[str, ...]:
+    """What two runs, as `row_data` gives them, do not share bit for bit, in words."""
     found = []
-    for name in _COMPARED:
+    for name in COMPARED:
         if name == "metrics":
             both = [*before["metrics"], *(m for m in now["metrics"] if m not in before["metrics"])]
             pairs = [(m, before["metrics"].get(m), now["metrics"].get(m)) for m in both]

@@ -1,0 +1,1 @@
+import gaitsim.compiler  # noqa: F401  MuJoCo is imported there first

@@ -15,6 +15,7 @@ from gaitsim.compiler.program import Program
 from gaitsim.errors import Fault, InvalidSpec
 from gaitsim.simulation.failure import of_mechanics
 from gaitsim.simulation.projection import close_loops
+from gaitsim.simulation.standing import stand
 
 
 @dataclass
@@ -66,6 +67,10 @@ class Body:
                 getattr(self.data, array)[place] = values[number]
                 given[array].append(place)
         close_loops(self.model, self.data, given["qpos"], given["qvel"])
+        for name in self.assembly.lifts:
+            place = int(self.model.joint(name).qposadr[0])
+            if place not in given["qpos"]:
+                stand(self.model, self.data, place, self.assembly.touching)
         mujoco.mj_forward(self.model, self.data)
 
     @cached_property

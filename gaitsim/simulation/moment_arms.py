@@ -73,8 +73,9 @@ def moment_arms(model: Model) -> list[MomentArm]:
             continue
         low, high = (float(limit) for limit in joint.range)
         limited = low < high
-        angles = np.linspace(low, high, _POINTS) if limited else np.linspace(-_FREE, _FREE, _POINTS)
         place = tie_place(mechanics, tie)
+        neutral = float(mechanics.qpos0[place])
+        angles = np.linspace(low, high, _POINTS) if limited else neutral + np.linspace(-_FREE, _FREE, _POINTS)
         before, at, after = (_lengths(mechanics, data, pose, place, angles + turn) for turn in (-_TURN, 0.0, _TURN))
         for tendon, path in paths.items():
             arms = -(after[:, tendon] - before[:, tendon]) / (2 * _TURN)

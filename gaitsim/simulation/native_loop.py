@@ -57,6 +57,7 @@ class Tables(NamedTuple):
     writes: Integers  # (address in MuJoCo's data, 0 input or 1 output, its place)
     signs: Floats
     stops: Integers
+    signals: Integers  # what is recorded: a place in the outputs, or behind them in the states
     initial_place: Integers
     initial_value: Floats
 
@@ -234,7 +235,9 @@ def simulate(
         for i in range(t.line_source.size):
             buffer[t.line_begin[i] + k % t.line_size[i]] = y[t.line_source[i]]
         if record.shape[0]:
-            record[k] = y
+            for i in range(t.signals.size):
+                place = t.signals[i]
+                record[k, i] = y[place] if place < y.size else x[place - y.size]
         for i in range(t.stops.size):
             if y[t.stops[i]] > 0.5:
                 return STOPPED, t.stops[i], 0, k

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Every output of every part at every recorded instant: values (instants x signals)."""
+    """Outputs and states of all parts (`model.recorded_signals`) at every instant: values (instants x signals)."""
 
     times: NDArray[np.float64]
     signals: tuple[str, ...]

@@ -85,7 +85,7 @@ class _Run:
                 for line, delay in zip(self.lines, self.program.delays, strict=True):
                     line[done % len(line)] = self.y[delay.source]
                 if recorded:
-                    record.append(self.y.copy())
+                    record.append(np.concatenate([self.y, self.x])[self.program.signal_places])
                 stopped_by = next((s for s in self.stops if self.y[s] > 0.5), None)
                 if stopped_by is not None:
                     break
@@ -102,7 +102,7 @@ class _Run:
         stopper = None if stopped_by is None else self.program.part_of_output(stopped_by)
         # As in native code: the step in which a run fails is not part of its record.
         record = record[: done + (stopper is not None)]
-        rows = np.array(record).reshape(-1, self.y.size) if recorded else None
+        rows = np.array(record).reshape(-1, len(self.program.signals)) if recorded else None
         return Ending(done, stopper, failure, self.p, self.x, rows)
 
     def _start(self) -> None:

@@ -59,6 +59,7 @@ class Rapid:
             "line": _integers([line for _, line in flat]),
             "line_source": _integers([line.source for line in program.delays]),
             "stops": _integers([program.outputs.place(i, "stop") for i in program.stops]),
+            "signals": program.signal_places,
         }
 
     def _tables(self, values: Sequence[float]) -> native.Tables:
@@ -116,7 +117,7 @@ class Rapid:
         p = program.parameter_table(values)
         u, x, y = (np.zeros(layout.size) for layout in (program.inputs, program.states, program.outputs))
         buffer = np.zeros(int(np.sum(tables.line_size)))
-        record = np.zeros((steps if recorded else 0, y.size))
+        record = np.zeros((steps if recorded else 0, len(program.signals)))
         model, data = body.model, body.data  # held by the call below for as long as it computes
 
         def compute() -> tuple[int, int, int, int]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any, Literal
@@ -13,13 +13,14 @@ import numpy as np
 
 from gaitsim.compiler.program import Floats, Program, measures
 from gaitsim.errors import InvalidComponent, InvalidSpec, SimulationFailed
-from gaitsim.model import Model, Part, metric_names
+from gaitsim.model import TERMS, Model, Objective, Part, metric_names, recorded_signals
 from gaitsim.parts.load import function_of
 from gaitsim.simulation.ending import Ending
 from gaitsim.simulation.failure import raised_in
 from gaitsim.simulation.outcome import Outcome, Trajectory
 from gaitsim.simulation.python_loop import Normal
 from gaitsim.simulation.view import views
+from gaitsim.units import parse_unit
 
 Mode = Literal["rapid", "normal"]
 
@@ -49,6 +50,7 @@ class Simulator:
 
     def __post_init__(self) -> None:
         self.program = Program(self.model)
+        self._factors = {name: parse_unit(unit).factor for name, unit in self.model.metrics.items()}
         self._loop = self._prepared()
         self._loop.prepare()
 
@@ -93,7 +95,7 @@ class Simulator:
             return {}, None, ending.failure
         try:
             metrics = self._metrics(ending)
-            return metrics, self._score(metrics, values), None
+            return self._in_units(metrics), self._score(metrics, values), None
         except _Raised as error:
             part, function = error.part, error.function
             cause = error.__cause__
@@ -110,24 +112,36 @@ class Simulator:
             found |= {name: float(getattr(m, own)) for own, name in metric_names(part).items()}
         return found
 
+    def _in_units(self, metrics: dict[str, float]) -> dict[str, float]:
+        """Metrics in their declared units: inside, all numbers are in SI."""
+        return {name: value / self._factors[name] for name, value in metrics.items()}
+
     def _score(self, metrics: dict[str, float], values: Sequence[float]) -> float | None:
         """The cost; None without an objective, or if it is not finite because a metric is not."""
         objective = self.model.objective
         if objective is None:
             return None
-        part = objective.part
-        wired = {name: metrics[metric] for name, metric in objective.metrics.items()}
-        constants = {name: values[index] for name, index in part.constants.items()}
-        defaults = {n: d.default for n, d in part.type.inputs.items() if d.default is not None}
-        numbers = {name: np.float64(values[part.numbers[name]]) for name in part.type.parameters}
-        inputs = {n: np.float64(v) for n, v in (defaults | constants | wired).items()}
-        y = SimpleNamespace(cost=math.nan)
-        _called(part, "output", SimpleNamespace(**numbers), SimpleNamespace(**inputs), None, y)
-        cost = float(y.cost)
+        cost = _cost(objective, metrics, values)
         return cost if math.isfinite(cost) else None
 
     def _trajectory(self, record: Floats) -> Trajectory:
-        program = self.program
-        units = [o.unit for part in self.model.parts for o in part.type.outputs.values()]
-        times = np.arange(len(record)) * self.model.simulate.step
-        return Trajectory(times.astype(np.float64), program.signals, tuple(units), record[:, program.signal_places])
+        units = tuple(signal.unit for signal in recorded_signals(self.model))
+        # Rounded, so that 3 steps of 0.1 ms are 0.0003 s and not 0.00030000000000000003 s.
+        times = np.round(np.arange(len(record)) * self.model.simulate.step, 12)
+        return Trajectory(times, self.program.signals, units, record)
+
+
+def _cost(objective: Objective, metrics: Mapping[str, float], values: Sequence[float]) -> float:
+    """The cost of metrics in SI, its terms included."""
+    part = objective.part
+    wired = {name: metrics[metric] for name, metric in objective.metrics.items()}
+    constants = {name: values[index] for name, index in part.constants.items()}
+    defaults = {n: d.default * parse_unit(d.unit).factor for n, d in part.type.inputs.items() if d.default is not None}
+    numbers = {name: np.float64(values[part.numbers[name]]) for name in part.type.parameters}
+    inputs = defaults | constants | wired
+    if TERMS in part.type.inputs:
+        inputs[TERMS] = constants.get(TERMS, 0.0) + sum(_cost(term, metrics, values) for term in objective.terms)
+    u = SimpleNamespace(**{name: np.float64(value) for name, value in inputs.items()})
+    y = SimpleNamespace(cost=math.nan)
+    _called(part, "output", SimpleNamespace(**numbers), u, None, y)
+    return float(y.cost)

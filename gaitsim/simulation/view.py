@@ -8,7 +8,7 @@ from gaitsim.compiler.program import Floats, Program
 
 
 class View:
-    """Fields of one part in one table: numbers, or arrays for states with a size."""
+    """Fields of one part in one table: numbers, or arrays for states with a size and for series."""
 
     __slots__ = ("_places", "_table")
 
@@ -32,15 +32,15 @@ class View:
 
 def views(program: Program, part: int, p: Floats, u: Floats, x: Floats, y: Floats) -> tuple[View, View, View, View]:
     """The four views of a part."""
+    kind = program.model.parts[part].type
+    states = {name: state.size for name, state in kind.states.items() if state.size is not None}
+    series = {name: one.size for name, one in kind.series.items()}
+    sized: tuple[dict[str, int], ...] = (series, {}, states, {})
     layouts = (program.parameters, program.inputs, program.states, program.outputs)
     made = []
-    for table, layout in zip((p, u, x, y), layouts, strict=True):
+    for table, layout, sizes in zip((p, u, x, y), layouts, sized, strict=True):
         places: dict[str, int | slice] = {name: layout.place(part, name) for name in layout.fields[part]}
-        if layout is program.states:
-            for name, state in program.model.parts[part].type.states.items():
-                if state.size is not None:
-                    begin = layout.place(part, name)
-                    places[name] = slice(begin, begin + state.size)
+        places |= {n: slice(layout.place(part, n), layout.place(part, n) + size) for n, size in sizes.items()}
         made.append(View(table, places))
     a, b, c, d = made
     return a, b, c, d

@@ -10,17 +10,18 @@ from dataclasses import dataclass, field, replace
 from gaitsim.component import Input, Parameter
 from gaitsim.component import Part as InnerPart
 from gaitsim.errors import Faults, GaitsimError, Mark, did_you_mean, nearest, with_article
-from gaitsim.model import Group, Part
+from gaitsim.model import Group, Part, Recording
 from gaitsim.parts.composite import ComponentFile, Composite
 from gaitsim.parts.find import Library, at
 from gaitsim.parts.primitive import Primitive
-from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
+from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, plain
 from gaitsim.spec.inheritance import merged, without
-from gaitsim.spec.numbers import NumberTable
+from gaitsim.spec.numbers import Names, NumberTable
 from gaitsim.spec.points import PointReader
 from gaitsim.spec.ports import PortReader, Wire
 from gaitsim.spec.quantity import example
 from gaitsim.spec.scope import Scope, Where
+from gaitsim.spec.series import SAMPLE, read_series
 from gaitsim.spec.spelling import respelled
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
@@ -34,7 +35,7 @@ class Expansion:
 
     library: Library
     faults: Faults
-    use_for: dict[str, str]
+    use_for: dict[str, Mapping]
     table: NumberTable
     parts: list[Part] = field(default_factory=list)
     groups: list[Group] = field(default_factory=list)
@@ -57,15 +58,20 @@ class Expansion:
         """Whether a name lies in what could not be opened; that has been said already."""
         return any(name == part or name.startswith(f"{part}.") for part in self.broken)
 
-    def section(self, section: Mapping, scope: Scope, side: str = "", measure: bool = False) -> None:
-        """Open every entry of `parts:` or `measures:`."""
-        sided = {name: sides(node, self.faults, name) for name, node in section.entries.items()}
-        overrides = {f"{name}_{s}" for name, both in sided.items() for s in both}
-        for name, both in sided.items():
+    def announce(self, section: Mapping, scope: Scope) -> None:
+        """Make the names of a section known, that others may send to them before they are opened."""
+        for name, node in section.entries.items():
+            both = sides(node)
             names = tuple(f"{name}_{s}" for s in both) or (name,)
             scope.children.update({each: scope.below(each) for each in names})
             if both:
                 scope.sided[name] = names
+
+    def section(self, section: Mapping, scope: Scope, side: str = "", measure: bool = False) -> None:
+        """Open every entry of `parts:` or `measures:`."""
+        self.announce(section, scope)
+        sided = {name: sides(node, self.faults, name) for name, node in section.entries.items()}
+        overrides = {f"{name}_{s}" for name, both in sided.items() for s in both}
         for name, node in section.entries.items():
             mark = section.keys[name]
             where = Where(scope.below(name), _join(scope.logical, name), scope, mark, side, measure)
@@ -93,11 +99,16 @@ class Expansion:
             if not sided[name] and name not in overrides:
                 self._entry(node, where)
 
+    def lone_entry(self, name: str, node: Mapping, mark: Mark, scope: Scope) -> None:
+        """Open one entry that its surroundings do not know by its name."""
+        self._entry(node, Where(scope.below(name), _join(scope.logical, name), scope, mark))
+
     def finish(self) -> None:
         """What needs every part to be known: points with a `%` of a segment's length."""
         self.points.read_all()
 
     def _entry(self, node: Mapping, where: Where) -> None:
+        node = self._instead(node, where)
         found, swapped = self._component(node, where)
         if found is None:
             self.broken.add(where.address)
@@ -107,6 +118,15 @@ class Expansion:
             self._composite(found, node, where)
         else:
             self._primitive(found, node, where)
+
+    def _instead(self, node: Mapping, where: Where) -> Mapping:
+        """The entry with what `use_for` says of its kind; what a swapped-in part is made of stays as it is."""
+        use = node.entries.get("use")
+        kind = str(use.value).split("/")[0] if isinstance(use, Scalar) else ""
+        instead = self.use_for.get(kind)
+        if instead is None or str(plain(instead.entries["use"])) in where.scope.references:
+            return node
+        return merged(node, instead)
 
     def _component(self, node: Mapping, where: Where) -> tuple[ComponentFile | None, frozenset[str]]:
         use = node.entries.get("use")
@@ -121,16 +141,12 @@ class Expansion:
             rule = "use: names a component, such as muscle/geyer2003."
             self.faults.add(rule, use.mark, where.address)
             return None, frozenset()
-        reference, swapped = use.value, node.swapped
-        instead = self.use_for.get(reference.split("/")[0], reference)
-        if instead != reference:
-            reference, swapped = instead, swapped | frozenset(node.entries)
         try:
-            return self.library.find(reference), swapped
+            return self.library.find(use.value), node.swapped
         except GaitsimError as error:
             for fault in at(use.mark, where.address, error):
                 self.faults.add(fault.message, fault.mark, fault.address)
-            return None, swapped
+            return None, node.swapped
 
     def _known_words(self, node: Mapping, found: ComponentFile, where: Where, swapped: frozenset[str]) -> Mapping:
         """The entry without what a swapped-in part lacks; other unknown words are faults."""
@@ -157,7 +173,9 @@ class Expansion:
             if given is None:
                 self.faults.add(_needs(name, declared), where.mark, address)
             names = where.scope.names if name in node.entries else dict(inside.names)
-            index = self.table.add(f"{address}.{name}", f"{where.logical}.{name}", given, declared, names)
+            index = self.table.add(
+                f"{address}.{name}", f"{where.logical}.{name}", given, declared, names, default=name not in node.entries
+            )
             inside.names[name] = (index, declared.unit)
         inside.attachments = dict.fromkeys(found.attachments, "")
         inside.attachments |= self.ports.attachments(found.attachments, node, where)
@@ -193,16 +211,19 @@ class Expansion:
         address = where.address
         numbers = {}
         for name, declared in found.parameters.items():
-            given = node.entries.get(name)
+            given, names = node.entries.get(name), where.scope.names
+            if given is None and name in where.given:
+                given, names = where.given[name]
             if given is None and declared.default is None:
                 self.faults.add(_needs(name, declared), where.mark, address)
-            names = where.scope.names
             numbers[name] = self.table.add(f"{address}.{name}", f"{where.logical}.{name}", given, declared, names)
         self.outputs.update({f"{address}.{name}": f"{address}.{name}" for name in found.outputs})
         self.inputs.update({f"{address}.{name}": [f"{address}.{name}"] for name in found.inputs})
         self.frames.update({f"{address}.{name}": f"{address}.{name}" for name in found.frames})
         for name, port in found.inputs.items():
             self.ports.input(name, port, node, where)
+        for name, link in found.links.items():
+            self.ports.link(name, link, node, where)
         self.ports.to(node, list(found.outputs), where)
         self.parts.append(
             Part(
@@ -216,13 +237,31 @@ class Expansion:
                 where.side == "l",
                 where.measure,
                 where.mark,
+                self._series(found, node, where),
             )
         )
-        self._inner_parts(found, node, where)
+        self._inner_parts(found, node, where, {n: (numbers[n], d.unit) for n, d in found.parameters.items()})
 
-    def _inner_parts(self, found: Primitive, node: Mapping, where: Where) -> None:
+    def _series(self, found: Primitive, node: Mapping, where: Where) -> dict[str, Recording]:
+        """The recorded curves of a part."""
+        made = {}
+        for name, declared in found.series.items():
+            address = f"{where.address}.{name}"
+            given = node.entries.get(name)
+            if given is None:
+                rule = f"needs {name} ({declared.doc.rstrip('.')}); write {name}: {SAMPLE}."
+                self.faults.add(rule, where.mark, where.address)
+                continue
+            read = read_series(name, declared, given, self.library, self.faults, address)
+            if read is not None:
+                made[name] = read
+        return made
+
+    def _inner_parts(self, found: Primitive, node: Mapping, where: Where, names: Names) -> None:
         """The parts inside a primitive, such as a muscle's path, and their wiring."""
         for name, slot in found.parts.items():
+            if slot.optional and name not in node.entries:
+                continue
             own = node.entries.get(name, Mapping({}, {}, where.mark))
             wrong, mark = self._slot_fault(name, slot, own, where)
             if wrong:
@@ -238,6 +277,7 @@ class Expansion:
                 address=f"{where.address}.{name}",
                 logical=f"{where.logical}.{name}",
                 mark=node.keys.get(name, where.mark),
+                given={theirs: (Scalar(f"={text}", where.mark), names) for theirs, text in slot.gives},
             )
             self._entry(entry, inner)
             for mine, theirs in slot.reads:

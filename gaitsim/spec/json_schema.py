@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from gaitsim.errors import GaitsimError
+from gaitsim.model import TERMS
 from gaitsim.parts.composite import ComponentFile, Composite
 from gaitsim.parts.find import Library
 from gaitsim.spec.quantity import example
@@ -76,6 +77,8 @@ def _entry(component: ComponentFile) -> dict[str, Any]:
         properties[name] = _described("value", parameter.doc, parameter.unit, parameter.source)
     for name in component.attachments:
         properties[name] = {"type": "string", "description": "A frame, such as thigh.distal."}
+    for name, link in component.links.items() if not isinstance(component, Composite) else ():
+        properties[name] = {"type": "string", "description": f"{link.doc} A part, such as ankle."}
     if isinstance(component, Composite):
         properties |= {name: {"description": "An input of the composite."} for name in component.inputs}
         properties |= {
@@ -86,6 +89,11 @@ def _entry(component: ComponentFile) -> dict[str, Any]:
         for name, port in component.inputs.items():
             wired = {"anyOf": [{"$ref": "#/$defs/connection"}, {"$ref": "#/$defs/value"}]}
             properties[name] = wired | {"description": f"{port.doc} [{port.unit}]"}
+        if TERMS in component.inputs and component.kind == "objective":
+            named = {"type": "object", "additionalProperties": {"$ref": "#/$defs/part"}}
+            properties[TERMS] = named | {"description": component.inputs[TERMS].doc}
+        for name, series in component.series.items():
+            properties[name] = {"type": ["string", "array"], "description": f"{series.doc} [{series.unit}]"}
         properties |= {name: {"enum": list(o.choices), "description": o.doc} for name, o in component.options.items()}
         properties |= {name: {"type": "array", "description": p.doc} for name, p in component.points.items()}
         properties |= {name: {"$ref": "#/$defs/part", "description": p.doc} for name, p in component.parts.items()}

@@ -17,6 +17,7 @@ from gaitsim.spec.spelling import respelled
 from gaitsim.units import parse_unit
 
 Names = dict[str, tuple[int, str]]
+_SPEC = "spec"  # the source of what a spec says without one
 
 
 def is_value(node: Node) -> bool:
@@ -44,9 +45,15 @@ class NumberTable:
         declared: Parameter,
         names: Names,
         fraction_of: int | None = None,
+        default: bool = False,
     ) -> int:
-        """Add one number; `logical` is its address as written once for all sides."""
+        """Add one number; `logical` is its address as written once for all sides.
+
+        default: the node stands with the declaration, whose source then is the number's.
+        """
         made = self._number(address, logical, node, declared, names, fraction_of)
+        if default and made.source in ("", _SPEC):
+            made = replace(made, source=declared.source or _SPEC)
         if fraction_of is not None:
             made = replace(made, unit=self.numbers[fraction_of].unit)
         self.index[address] = len(self.numbers)
@@ -103,7 +110,7 @@ class NumberTable:
         if value is None:
             return Number(address, declared.unit, mark=node.mark)
         self._within(value, declared, node, address)
-        return Number(address, unit.text, value, fraction_of=fraction_of, source="spec", mark=node.mark)
+        return Number(address, unit.text, value, fraction_of=fraction_of, source=_SPEC, mark=node.mark)
 
     def _default(self, address: str, declared: Parameter) -> Number:
         factor = parse_unit(declared.unit).factor
@@ -122,8 +129,10 @@ class NumberTable:
         shared = node  # one tune written for both sides is one number
         node = respelled(node, sorted(VALUE_KEYS), "a value has no key", self.faults, address)
         source = node.entries.get("source")
-        origin = str(source.value) if isinstance(source, Scalar) else declared.source
         value_node = node.entries.get("value")
+        # A declaration's source is that of its own value only.
+        unsaid = declared.source if value_node is None else _SPEC
+        origin = str(source.value) if isinstance(source, Scalar) else unsaid
         value: float | None = None
         if value_node is not None:
             if "tune" not in node.entries:

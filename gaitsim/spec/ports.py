@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from gaitsim.component import Input, Option, Parameter
+from gaitsim.component import Input, Link, Option, Parameter
 from gaitsim.errors import Faults, Mark, did_you_mean
 from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
 from gaitsim.spec.numbers import Names, NumberTable, is_value
@@ -75,6 +75,20 @@ class PortReader:
             self.faults.add(rule, given.mark, port)
             return
         self.constants.append(Constant(port, f"{where.logical}.{name}", given, where.scope.names))
+
+    def link(self, name: str, declared: Link, node: Mapping, where: Where) -> None:
+        """The connections that the name of another part makes."""
+        given = node.entries.get(name)
+        if given is None:
+            return
+        text = self._text(given, f"{name} names a part; write such as {name}: ankle.", where)
+        other = absolute(text, where, given.mark, self.faults) if text else None
+        self.tried |= {f"{where.address}.{own}" for own, _ in declared.reads}
+        if other is None:
+            return
+        reads = [(f"{other}.{theirs}", f"{where.address}.{own}") for own, theirs in declared.reads]
+        sends = [(f"{where.address}.{own}", f"{other}.{theirs}") for theirs, own in declared.sends]
+        self.wires += [Wire(source, target, None, None, where.address, given.mark) for source, target in reads + sends]
 
     def to(self, node: Mapping, outputs: list[str], where: Where) -> None:
         """Send outputs to summing inputs: `to: port`, `to: [ports]`, or `to: {output: port(s)}`."""

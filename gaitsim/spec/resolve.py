@@ -7,14 +7,16 @@ from pathlib import Path
 
 from gaitsim.component import Parameter
 from gaitsim.errors import Faults, did_you_mean
-from gaitsim.model import WORLD, Model, Objective, Simulate, metric_units
+from gaitsim.model import WORLD, Model, Part, Simulate, metric_units
 from gaitsim.parts.composite import declared_parameters
 from gaitsim.parts.find import Library
+from gaitsim.parts.primitive import Primitive
 from gaitsim.spec.connect import Wiring
 from gaitsim.spec.document import Mapping, Node, Scalar
 from gaitsim.spec.expand import Expansion, sides
 from gaitsim.spec.inheritance import override, with_parents
 from gaitsim.spec.numbers import NumberTable
+from gaitsim.spec.objective import read_objective
 from gaitsim.spec.schema import Header, header
 from gaitsim.spec.scope import Scope
 
@@ -46,6 +48,7 @@ def resolve(document: Mapping, library: Library, name: str) -> Model:
     expansion = Expansion(library, faults, _kinds(document, library, faults), table)
     scope = Scope("", "", document.mark.file, {})
     _mask(document, table, scope, faults)
+    expansion.announce(_section(document, "measures"), scope)  # parts may send to them
     for name_of in ("parts", "measures"):
         expansion.section(_section(document, name_of), scope, measure=name_of == "measures")
     expansion.finish()
@@ -53,11 +56,15 @@ def resolve(document: Mapping, library: Library, name: str) -> Model:
     connections = wiring.connections()
     parts = tuple(wiring.completed(part) for part in expansion.parts)
     initial = _initial(_section(document, "initial"), wiring, scope)
-    objective = _objective(document, expansion, metric_units(parts, connections), scope)
+    objective, said = None, _section(document, "objective")
+    if said.entries:
+        units = metric_units(parts, connections)
+        objective = read_objective(said, document.keys["objective"], expansion, units, scope)
     faults.raise_if_any()
     table.check_computed()
     faults.raise_if_any()
     assert head is not None
+    simulate = Simulate(**head.simulate.model_dump())
     return Model(
         name=name,
         numbers=tuple(table.numbers),
@@ -67,20 +74,40 @@ def resolve(document: Mapping, library: Library, name: str) -> Model:
         connections=connections,
         initial=initial,
         objective=objective,
-        simulate=Simulate(**head.simulate.model_dump()),
-        notices=tuple(expansion.notices + library.notices),
+        simulate=simulate,
+        notices=(*expansion.notices, *library.notices, *_long_steps(parts, simulate.step)),
         dropped=frozenset(expansion.dropped),
     )
 
 
-def _kinds(document: Mapping, library: Library, faults: Faults) -> dict[str, str]:
-    """`use_for`: kinds that are swapped as a whole."""
+def _long_steps(parts: Iterable[Part], step: float) -> list[str]:
+    """A warning for each component that is not right at a step as long as this."""
+    beyond: dict[Primitive, list[str]] = {}
+    for part in parts:
+        if step > part.type.largest_step * (1 + 1e-9):
+            beyond.setdefault(part.type, []).append(part.address)
+    return [
+        f"warning: {kind.reference} ({_few(addresses)}) is right up to a step of {1e3 * kind.largest_step:g} ms, "
+        f"and simulate.step is {1e3 * step:g} ms; see gaitsim library show {kind.reference}"
+        for kind, addresses in beyond.items()
+    ]
+
+
+def _few(names: list[str]) -> str:
+    return ", ".join(names if len(names) < 4 else [*names[:2], f"{len(names) - 2} more"])
+
+
+def _kinds(document: Mapping, library: Library, faults: Faults) -> dict[str, Mapping]:
+    """`use_for`: kinds that are swapped as a whole, each with what its parts then say."""
     section, found = _section(document, "use_for"), {}
     for kind, node in section.entries.items():
-        reference = node.value if isinstance(node, Scalar) else None
+        entry = node if isinstance(node, Mapping) else Mapping({"use": node}, {"use": node.mark}, node.mark)
+        use = entry.entries.get("use")
+        reference = use.value if isinstance(use, Scalar) else None
         if not isinstance(reference, str):
-            continue  # the header has told of it
-        if kind not in library.kinds():
+            sample = f"{kind}/..., or {{use: {kind}/..., ...}}"
+            faults.add(f"this names no component; write {kind}: {sample}.", node.mark, f"use_for.{kind}")
+        elif kind not in library.kinds():
             hint = did_you_mean(kind, library.kinds())
             faults.add(f"there is no kind {kind}. {hint}", section.keys[kind], "use_for")
         elif reference not in library.references():
@@ -89,7 +116,7 @@ def _kinds(document: Mapping, library: Library, faults: Faults) -> dict[str, str
             rule = f"{reference} is no {kind}; choose {', '.join(library.references(kind))}."
             faults.add(rule, node.mark, f"use_for.{kind}")
         else:
-            found[kind] = reference
+            found[kind] = entry
     return found
 
 
@@ -100,7 +127,7 @@ def _mask(document: Mapping, table: NumberTable, scope: Scope, faults: Faults) -
     for name, parameter in declared.items():
         if name not in defaults:
             faults.add("needs a default, such as {unit: kg, default: 80 kg}.", section.keys[name], name)
-        index = table.add(name, name, defaults.get(name), parameter, dict(scope.names))
+        index = table.add(name, name, defaults.get(name), parameter, dict(scope.names), default=True)
         scope.names[name] = (index, parameter.unit)
 
 
@@ -136,42 +163,6 @@ def _initial(section: Mapping, wiring: Wiring, scope: Scope) -> dict[str, int]:
                 table = wiring.expansion.table
                 found[address] = table.add(f"initial.{address}", f"initial.{key}", node, asked, scope.names)
     return found
-
-
-def _objective(
-    document: Mapping, expansion: Expansion, units: dict[str, str], scope: Scope
-) -> Objective | None:
-    """The objective, an expansion of its own whose inputs read metrics."""
-    section = _section(document, "objective")
-    if not section.entries:
-        return None
-    faults = expansion.faults
-    alone = Expansion(expansion.library, faults, expansion.use_for, expansion.table, broken=expansion.broken)
-    inner = Scope("", "", scope.file, scope.names, children={n: n for n in scope.children})
-    entry = Mapping({"objective": section}, {"objective": document.keys["objective"]}, section.mark)
-    alone.section(entry, inner)
-    if not alone.parts:
-        return None
-    part = alone.parts[0]
-    if len(alone.parts) > 1 or "cost" not in part.type.outputs:
-        references = ", ".join(expansion.library.references("objective"))
-        rule = f"an objective gives one output, cost; use one of {references}."
-        faults.add(rule, section.entries["use"].mark, "objective")
-        return None
-    metrics = {}
-    for wire in alone.wires:
-        if wire.source not in units and not expansion.is_broken(wire.source):
-            faults.add(f"{wire.source} is no metric. {did_you_mean(wire.source, units)}", wire.mark, wire.target)
-        metrics[wire.target.removeprefix("objective.")] = wire.source
-    wiring = Wiring(alone)
-    part = wiring.completed(part)
-    for name, declared in part.type.inputs.items():
-        given = name in metrics or name in part.constants or f"objective.{name}" in alone.ports.tried
-        if not given and declared.default is None:
-            metric = next(iter(units), "metric")
-            rule = f"needs {name} ({declared.doc.rstrip('.')}); write {name}: {{from: {metric}}}."
-            faults.add(rule, part.mark, "objective")
-    return Objective(part, metrics)
 
 
 def _section(document: Mapping, name: str) -> Mapping:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
@@ -49,10 +50,23 @@ _SAMPLES = {
     "objective": "{use: objective/minimize, value: {from: swing}}",
     "simulate": "{duration: 10 s, step: 1 ms}",
     "study": "[{feedback.gain: 2}, {feedback.gain: 3}]",
+    "episodes": "[{noise.seed: 1}, {noise.seed: 2}]",
     "duration": "10 s",
     "step": "1 ms",
 }
+_SHARE = re.compile(r"0?\.\d+|[01]|1\.0*|0\.")  # a number from 0 to 1
 _MOST_STEPS = 1e12  # days of computing, and what an integer of 64 bits holds with ease
+
+
+def _combination(value: object) -> str:
+    """`mean`, `worst` or `quantile Q` with Q from 0 to 1."""
+    text = " ".join(str(value).split()) if isinstance(value, str) else ""
+    word, _, share = text.partition(" ")
+    if text in ("mean", "worst") or (word == "quantile" and _SHARE.fullmatch(share)):
+        return text
+    said = f'"{value}" is no way' if isinstance(value, str | int | float) else "this is no way"
+    rule = f"{said} to combine scores; write mean, worst, or such as quantile 0.9 (from 0 to 1)."
+    raise PydanticCustomError("quantity", "{text}", {"text": rule})
 
 
 class _Section(BaseModel):
@@ -79,13 +93,26 @@ class SimulateSection(_Section):
     )
 
 
-class OptimizeSection(_Section):
-    """How the spec is searched; the command line may say otherwise."""
+class SearchSection(_Section):
+    """How a search goes; the command line may say otherwise."""
 
     algorithm: str = Field(default="cma", description="Search algorithm: cma, ga, pso or de.")
     population: Annotated[int, Field(ge=2)] | None = Field(default=None, description="Candidates a generation.")
     generations: int = Field(default=100, ge=1, description="Generations at most.")
     seed: int = Field(default=1, ge=0, description="Seed of the search.")
+
+
+class OptimizeSection(SearchSection):
+    """How the spec is searched, and in which episodes a candidate is judged."""
+
+    episodes: list[dict[str, Any]] = Field(
+        default=[],
+        description="Overrides, one simulation each for every candidate, such as seeds, pushes or slopes.",
+    )
+    combine: Annotated[str, BeforeValidator(_combination)] = Field(
+        default="mean",
+        description="The score of a candidate: mean, worst, or such as quantile 0.9 of its episodes' scores.",
+    )
 
 
 class Header(_Section):
@@ -94,7 +121,10 @@ class Header(_Section):
     gaitsim: Literal[1] = Field(description="Version of this grammar.")
     about: str = Field(default="", description="What the model is, and its source.")
     extends: str = Field(default="", description="A spec to start from; path relative to this file.")
-    use_for: dict[str, str] = Field(default={}, description="A component for every part of a kind.")
+    use_for: dict[str, Any] = Field(
+        default={},
+        description="A component for every part of a kind: kind/name, or {use: kind/name, ...} with numbers.",
+    )
     parameters: dict[str, Any] = Field(default={}, description="Numbers used in several places as =name.")
     parts: dict[str, Any] = Field(description="The model's parts, by name.", min_length=1)
     initial: dict[str, Any] = Field(default={}, description="Initial coordinates and states, by address.")

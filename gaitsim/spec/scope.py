@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from gaitsim.errors import Faults, Mark, did_you_mean
 from gaitsim.model import WORLD
+from gaitsim.spec.document import Node
 from gaitsim.spec.numbers import Names
 
 _OTHER = {"l": "r", "r": "l"}
@@ -46,6 +48,7 @@ class Where:
     mark: Mark
     side: str = ""
     measure: bool = False
+    given: Mapping[str, tuple[Node, Names]] = field(default_factory=dict)  # parameters from the part around
 
 
 def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:

@@ -1,4 +1,4 @@
-"""Studies: a table of overrides, from `--vary address=values` and from `study:` in a spec."""
+"""Studies and episodes: tables of overrides, from `--vary address=values`, `study:` and `optimize: episodes:`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence as Many
 from dataclasses import dataclass
 
-from gaitsim.errors import Faults, Usage
+from gaitsim.errors import Faults, Mark, Usage
 from gaitsim.spec.document import Mapping, Node, Sequence, dump, plain
 from gaitsim.spec.inheritance import laid, override, split_setting, without
 from gaitsim.spec.quantity import said, unknown_unit
@@ -18,10 +18,11 @@ _RANGE_LIMIT = 100_000
 
 @dataclass(frozen=True)
 class Variant:
-    """One row of a study: what is set, as written, and the spec with it."""
+    """One row of a study: what is set, as written, and the spec with it; and where the row is written."""
 
     settings: dict[str, str]
     document: Mapping
+    mark: Mark | None = None
 
 
 def variants(document: Mapping, vary: Many[str]) -> list[Variant]:
@@ -32,29 +33,42 @@ def variants(document: Mapping, vary: Many[str]) -> list[Variant]:
     columns = [_column(text) for text in vary]
     base = without(document, "study")
     rows: list[Variant] = []
-    for settings, start in _study(document, base):
+    for start in _table(document.entries.get("study"), document.keys.get("study"), base, "study"):
+        settings = start.settings
         for values in itertools.product(*([(address, v) for v in options] for address, options in columns)):
-            row = start
+            row = start.document
             for address, value in values:
                 row = override(row, address, value, "--vary")
             rows.append(Variant(settings | dict(values), row))
     return rows
 
 
-def _study(document: Mapping, base: Mapping) -> list[tuple[dict[str, str], Mapping]]:
-    section = document.entries.get("study")
+def episodes(document: Mapping) -> list[Variant]:
+    """Every episode of the spec's `optimize:`; the spec as it is, if it has none.
+
+    Errors: InvalidSpec for a bad list of episodes.
+    """
+    section = document.entries.get("optimize")
+    inside = section if isinstance(section, Mapping) else Mapping({}, {}, document.mark)
+    given = inside.entries.get("episodes")
+    return _table(given, inside.keys.get("episodes"), document, "optimize.episodes")
+
+
+def _table(section: Node | None, key: Mark | None, base: Mapping, name: str) -> list[Variant]:
+    """The rows of a list of overrides; without one, the base as it is."""
     if section is None or plain(section) in (None, []):
-        return [({}, base)]
+        return [Variant({}, base)]
     rows, faults = [], Faults()
+    word = name.rpartition(".")[2]
     for item in section.items if isinstance(section, Sequence) else (section,):
         if not isinstance(item, Mapping) or item is section:
-            rule = f"{said(item)} is no list of overrides; write study: [{{feedback.gain: 2}}, {{feedback.gain: 3}}]."
-            faults.add(rule, document.keys["study"] if item is section else item.mark, "study")
+            rule = f"{said(item)} is no list of overrides; write {word}: [{{feedback.gain: 2}}, {{feedback.gain: 3}}]."
+            faults.add(rule, key if item is section else item.mark, name)
             continue
         row = base
         for address, node in item.entries.items():
             row = laid(row, address, node, item.keys[address])
-        rows.append(({address: _text(node) for address, node in item.entries.items()}, row))
+        rows.append(Variant({address: _text(node) for address, node in item.entries.items()}, row, item.mark))
     faults.raise_if_any()
     return rows
 

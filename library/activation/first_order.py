@@ -1,4 +1,4 @@
-from gaitsim.component import Component, Input, Output, Parameter, State
+from gaitsim.component import Component, Curve, Input, Output, Parameter, State
 
 
 class FirstOrder(Component):
@@ -15,6 +15,10 @@ class FirstOrder(Component):
     excitation = Input("1", "Sum of all stimulations, STIM.", sums=True)
     level = State("1", "Activation A.")
     activation = Output("1", "Activation A.")
+
+    response = Curve(
+        "activation", "time", (0, 0.15), "Answer to an excitation that comes and goes.", steps={"excitation": (0, 1, 0)}
+    )
 
     @staticmethod
     def start(p, u, x):

@@ -1,8 +1,10 @@
-from gaitsim.component import Attachment, Component, Option, Output, Parameter
+import math
+
+from gaitsim.component import Attachment, Component, Input, Option, Output, Parameter, Part, StepLimit
 
 
 class Mujoco(Component):
-    """MuJoCo's own contact: a sphere at a point of a body against level ground, with friction.
+    """MuJoCo's own contact: a sphere at a point of a body against the ground, with friction.
 
     It has no force law in N/m: depth and rate of closing set an acceleration, so penetration does
     not depend on mass. Its force comes from the solver after all outputs: what is read is one
@@ -58,22 +60,43 @@ class Mujoco(Component):
     friction = Parameter(
         "1", "Coefficient of friction.", default=1, bounds=(0, 10), source="definition: MuJoCo's default"
     )
+    terrain = Part(
+        "terrain",
+        "The ground.",
+        default="terrain/flat",
+        reads=(("ground_height", "height"), ("ground_slope", "slope")),
+        sends=(("position", "position"),),
+    )
+    ground_height = Input("m", "Height of the ground where the sphere is.", default=0)
+    ground_slope = Input("rad", "By how much the ground rises forwards.", default=0)
+    position = Output("m", "Where the sphere's center is along the ground.")
     center_height = Output("m", "Height of the sphere's center.")
     height = Output("m", "Height of the sphere's lowest point above the ground.")
     weight = Output("N", "Weight of all that moves.")
-    touch = Output("N", "Normal force as the solver left it.")
-    force = Output("N", "Force of the ground on the sphere, upwards; one step old.")
+    pushed_forwards = Output("N", "Forward force of the sphere on the ground, in the world.")
+    pushed_upwards = Output("N", "Upward force of the sphere on the ground, in the world.")
+    force = Output("N", "Force of the ground on the sphere, along the ground's normal; one step old.")
+    friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground; one step old.")
     load = Output("1", "Force in weights of all that moves; one step old.")
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy as of a linear spring, force times depth / 2; one step old.")
 
+    largest_step = StepLimit(
+        "ms",
+        "80 kg on a foot of 1.25 kg landing on its heel at 0.5 m/s, default numbers: peak force within 5 % of that at "
+        "0.02 ms. A time constant below 2 steps is raised to that by MuJoCo.",
+        1,
+    )
+
     @staticmethod
     def output(p, u, x, y):
-        y.height = y.center_height - p.radius
+        cosine, sine = math.cos(u.ground_slope), math.sin(u.ground_slope)
+        y.height = y.center_height - p.radius - u.ground_height
         y.in_contact = 1.0 if y.height < 0 else 0.0
-        y.force = y.touch
-        y.load = y.touch / y.weight if y.weight > 0 else 0.0
-        y.energy = 0.5 * y.touch * max(0.0, -y.height)
+        y.force = y.pushed_forwards * sine - y.pushed_upwards * cosine
+        y.friction_force = -y.pushed_forwards * cosine - y.pushed_upwards * sine
+        y.load = y.force / y.weight if y.weight > 0 else 0.0
+        y.energy = 0.5 * y.force * max(0.0, -y.height)
 
     @staticmethod
     def build(p, mj):
@@ -86,6 +109,11 @@ class Mujoco(Component):
             solref=(-p.reference_stiffness, -p.reference_damping) if direct else (p.time_constant, p.damping_ratio),
             solimp=(p.impedance_low, p.impedance_high, p.impedance_width, p.impedance_middle, p.impedance_power),
         )
-        mj.read("touch", touch, "sensordata")
-        mj.read("center_height", mj.position_of(center), "sensordata", 2)
+        mj.read("pushed_forwards", touch, "sensordata", 0)
+        mj.read("pushed_upwards", touch, "sensordata", 2)
+        place = mj.position_of(center, surface="terrain")
+        mj.read("position", place, "sensordata", 0)
+        mj.read("center_height", place, "sensordata", 2)
+        mj.touches(center, p.radius)
         mj.read_weight("weight")
+        mj.draw_force(center, up="force", forward="friction_force", surface="terrain")

@@ -1,8 +1,8 @@
-from gaitsim.component import Attachment, Component, Output, Parameter
+from gaitsim.component import Attachment, Component, Curve, Input, Output, Parameter, Part, StepLimit
 
 
 class SpringDamper(Component):
-    """Vertical spring and damper side by side under one point of a body, on level ground.
+    """A spring and a damper side by side under one point of a body, along the ground's normal.
 
     F = k d + b d', never negative: the ground does not pull. No friction; where a point may
     slip, another contact is needed.
@@ -11,26 +11,66 @@ class SpringDamper(Component):
     frame = Attachment("The point that touches the ground.")
     stiffness = Parameter("N/m", "k.", bounds=(1, 1e8))
     damping = Parameter("N s/m", "b.", bounds=(0, 1e6))
-    height = Output("m", "Height of the point above the ground.")
+    terrain = Part(
+        "terrain",
+        "The ground.",
+        default="terrain/flat",
+        reads=(("ground_height", "height"),),
+        sends=(("position", "position"),),
+    )
+    ground_height = Input("m", "Height of the ground where the point is.", default=0)
+    position = Output("m", "Where the point is along the ground.")
+    height = Output("m", "Height of the point.")
     velocity = Output("m/s", "Upward velocity of the point.")
     weight = Output("N", "Weight of all that moves.")
     force = Output("N", "Force of the ground on the point, upwards.")
+    friction_force = Output("N", "Force along the ground: none.")
     load = Output("1", "Force in weights of all that moves; 0 without gravity.")
     in_contact = Output("1", "1 while the point is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, k d^2 / 2.")
 
+    largest_step = StepLimit(
+        "ms",
+        "80 kg on a foot of 1.25 kg landing on its heel at 0.5 m/s, 78 kN/m and 500 N s/m: peak force within 1 % of "
+        "that at 0.02 ms. It is explicit: with mass m at the point it needs steps well below 2 m / b.",
+        0.5,
+    )
+
+    pressing = Curve(
+        "force",
+        "height",
+        (-0.02, 0.005),
+        "Force over height, k = 100 kN/m, b = 1 kN s/m.",
+        at={"stiffness": 1e5, "damping": 1e3},
+        each=("velocity", (-0.5, 0, 0.5)),
+    )
+    moving = Curve(
+        "force",
+        "velocity",
+        (-1, 1.5),
+        "Force over velocity, k = 100 kN/m, b = 1 kN s/m.",
+        at={"stiffness": 1e5, "damping": 1e3},
+        each=("height", (-0.005, -0.01)),
+    )
+
     @staticmethod
     def output(p, u, x, y):
-        depth = max(0.0, -y.height)
-        y.in_contact = 1.0 if y.height < 0 else 0.0
+        depth = max(0.0, u.ground_height - y.height)
+        y.in_contact = 1.0 if depth > 0 else 0.0
         y.force = y.in_contact * max(0.0, p.stiffness * depth - p.damping * y.velocity)
+        y.friction_force = 0.0
         y.load = y.force / y.weight if y.weight > 0 else 0.0
         y.energy = 0.5 * p.stiffness * depth**2
 
     @staticmethod
     def build(p, mj):
-        ground = mj.push(mj.attached("frame"), axis=(0, 0, 1))
+        point = mj.attached("frame")
+        along = mj.push(point, axis=(1, 0, 0), suffix="along", surface="terrain")
+        ground = mj.push(point, axis=(0, 0, 1), surface="terrain")
+        mj.read("position", along, "actuator_length")
         mj.read("height", ground, "actuator_length")
         mj.read("velocity", ground, "actuator_velocity")
+        mj.touches(point)
         mj.read_weight("weight")
         mj.apply("force", ground, "ctrl")
+        mj.draw_force(point, up="force", surface="terrain")

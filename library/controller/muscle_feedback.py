@@ -1,4 +1,4 @@
-from gaitsim.component import Component, Input, Output, Parameter
+from gaitsim.component import Component, Curve, Input, Output, Parameter
 
 
 class MuscleFeedback(Component):
@@ -16,6 +16,10 @@ class MuscleFeedback(Component):
     signal = Input("1", "Normalized force, fiber length or fiber velocity.")
     gate = Input("1", "1 lets the feedback through, 0 leaves the bias.", default=1)
     stimulation = Output("1", "Contribution to the muscle's excitation.")
+
+    answer = Curve(
+        "stimulation", "signal", (0, 1.5), "Stimulation over the signal, G = 3.", at={"gain": 3}, each=("gate", (1, 0))
+    )
 
     @staticmethod
     def output(p, u, x, y):

@@ -1,4 +1,4 @@
-from gaitsim.component import Attachment, Component, Input, Output, Parameter
+from gaitsim.component import Attachment, Component, Curve, Input, Output, Parameter
 
 
 def stop_torque(depth, rate, stiffness, damping):
@@ -34,6 +34,15 @@ class LimitedHinge(Component):
     stop = Output("N m", "Torque of the stops on the child; positive at the lower one.")
     stop_energy = Output("J", "Elastic energy in the stops.")
     total = Output("N m", "Torque of stops and senders together.")
+
+    stops = Curve(
+        "stop",
+        "angle",
+        (0.2, 2.7),
+        "Torque of stops at 30 and 140 deg, 2 kN m/rad with 40 N m s/rad.",
+        at={"lower": 0.524, "upper": 2.443, "stiffness": 2000, "stop_damping": 40},
+        each=("velocity", (-5, 0, 5)),
+    )
 
     @staticmethod
     def output(p, u, x, y):

@@ -6,7 +6,9 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 class Apex(Component):
     """The highest points between contacts, above a reference height."""
 
-    reference = Parameter("m", "Height that counts as zero.", default=0, source="definition: the ground")
+    reference = Parameter(
+        "m", "Height that counts as zero.", default=0, bounds=(-100, 100), source="definition: the ground"
+    )
     average = Parameter(
         "1", "How many of the last apexes are averaged.", default=3, bounds=(1, 16), source="thesis: last three"
     )

@@ -1,6 +1,6 @@
 import math
 
-from gaitsim.component import Component, Input, Output, Parameter, Part, State
+from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, State, StepLimit
 
 
 def force_length(length, width):
@@ -48,11 +48,19 @@ class Geyer2003(Component):
         "1", "Floor of the fiber in optimal lengths.", default=0.05, bounds=(1e-3, 0.5), source="geyer2010"
     )
 
+    largest_step = StepLimit(
+        "ms",
+        "Force within 2 % of F_max of that at 5 us at every instant: an isometric contraction and relaxation, "
+        "stretches and releases at half v_max at A = 0.01 and 0.5, 0.3 F_max lifted; soleus, vasti, hip flexors.",
+        0.1,
+    )
+
     path = Part(
         "path",
         "Geometry from origin to insertion.",
         reads=(("path_length", "length"),),
         sends=(("tension", "force"),),
+        gives=(("reference_length", "optimal_fiber_length + tendon_slack_length"),),
     )
     activation_dynamics = Part(
         "activation",
@@ -60,6 +68,25 @@ class Geyer2003(Component):
         default="activation/first_order",
         reads=(("activation_level", "activation"),),
         sends=(("excitation", "excitation"),),
+    )
+    metabolics = Part(
+        "metabolics",
+        "Metabolic power; a spec that wants it says which.",
+        optional=True,
+        sends=(
+            ("excitation", "excitation"),
+            ("activation", "activation"),
+            ("normalized_isometric_force", "normalized_isometric_force"),
+            ("normalized_fiber_length", "normalized_fiber_length"),
+            ("fiber_velocity", "fiber_velocity"),
+            ("fiber_force", "fiber_force"),
+            ("force", "force"),
+        ),
+        gives=(
+            ("max_isometric_force", "max_isometric_force"),
+            ("optimal_fiber_length", "optimal_fiber_length"),
+            ("max_contraction_velocity", "max_contraction_velocity"),
+        ),
     )
     excitation = Input("1", "Sum of all stimulations.", sums=True)
     activation_level = Input("1", "Activation.")
@@ -75,10 +102,28 @@ class Geyer2003(Component):
     normalized_fiber_length = Output("1", "l_CE in optimal lengths.")
     fiber_velocity = Output("m/s", "v_CE, shortening negative.")
     normalized_fiber_velocity = Output("1", "v_CE in v_max.")
+    fiber_force = Output("N", "Active force of the contractile element, A F_max f_l f_v.")
+    normalized_isometric_force = Output("1", "f_l: active force in F_max, at rest and full activation.")
     tendon_strain_now = Output("1", "Strain of the tendon, eps.")
     tendon_energy = Output("J", "Elastic energy in the tendon, F_max l_rest eps^3 / (3 eps_ref^2).")
-
     elastic_energy = Output("J", "All elastic energy: that of the tendon.")
+
+    active_curve = Curve("force_length", "length", (0.4, 1.6), "f_l over the length in l_opt.")
+    velocity_curve = Curve(
+        "velocity_from_force",
+        "ratio",
+        (0, 1.6),
+        "f_v over the velocity in v_max, shortening negative.",
+        at={"eccentric": "eccentric_force"},
+        inverse=True,
+    )
+    tendon_curve = Curve(
+        "normalized_force",
+        "path_length",
+        (0.49, 0.52),
+        "Tendon: force in F_max over the path's length, l_CE = 10 cm, l_rest = 40 cm.",
+        at={"optimal_fiber_length": 0.1, "tendon_slack_length": 0.4, "length": 0.1, "activation_level": 1},
+    )
 
     @staticmethod
     def start(p, u, x):
@@ -95,7 +140,9 @@ class Geyer2003(Component):
         y.force = p.max_isometric_force * y.normalized_force
         y.tendon_energy = y.force * strain * p.tendon_slack_length / 3
         y.elastic_energy = y.tendon_energy
-        isometric = u.activation_level * force_length(y.normalized_fiber_length, p.width)
+        y.normalized_isometric_force = force_length(y.normalized_fiber_length, p.width)
+        y.fiber_force = y.force
+        isometric = u.activation_level * y.normalized_isometric_force
         ratio = y.normalized_force / isometric
         y.normalized_fiber_velocity = velocity_from_force(ratio, p.eccentric_force, p.curvature)
         v_max = p.max_contraction_velocity * p.optimal_fiber_length

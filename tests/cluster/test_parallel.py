@@ -19,6 +19,7 @@ from gaitsim.cluster.evaluate import Bench, Serial
 from gaitsim.cluster.parallel import Parallel, Patience
 from gaitsim.optimization.evaluation import Candidate, Evaluation
 from gaitsim.results.bundle import Bundle
+from gaitsim.results.episodes import Episodes
 from gaitsim.simulation.run import Simulator
 
 from .servers import Servers
@@ -59,7 +60,7 @@ def expected(study: Study) -> dict[Candidate, Evaluation]:
     """The innocent ones, as this process evaluates them."""
     settings = ["simulate.duration=200ms"]
     model = source_of_spec(study.folder / "spec.yaml", settings, None, tuned=False).model()
-    serial = Serial(Bench(Simulator(model), study.folder))
+    serial = Serial(Bench(Episodes((Simulator(model),)), study.folder))
     return {evaluation.candidate: evaluation for evaluation, _, _ in serial(INNOCENT)}
 
 
@@ -134,6 +135,6 @@ def test_a_model_is_taken_from_the_workers_again(study: Study, local: Any) -> No
 
 def test_the_order_of_candidates_changes_no_number(study: Study) -> None:
     model = source_of_spec(study.folder / "spec.yaml", None, None, tuned=False).model()
-    serial = Serial(Bench(Simulator(model), study.folder))
+    serial = Serial(Bench(Episodes((Simulator(model),)), study.folder))
     forwards = {e.candidate: e.line() for e, _, _ in serial(CANDIDATES)}
     assert forwards == {e.candidate: e.line() for e, _, _ in serial(CANDIDATES[::-1])}

@@ -2,30 +2,30 @@
 
 from __future__ import annotations
 
+import math
 import re
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gaitsim.compiler.kernel import address_of
 from gaitsim.component import Input, Metric, Output, Parameter, State
 from gaitsim.parts.audit import audit
+from gaitsim.parts.bibliography import entries, keys_of
 from gaitsim.parts.composite import Composite
 from gaitsim.parts.contract import kind_faults
+from gaitsim.parts.find import Library
 from gaitsim.parts.primitive import Primitive
+from gaitsim.parts.review import review
+from gaitsim.simulation.curves import graphs, why_no_curves
 
 from .calls import FILES, FOLDER, component, reference_of, stages
 
 _DOCUMENTED = Parameter | Input | Output | State | Metric
-_KEYS = set(re.findall(r"^@\w+\{(\w+),", (FOLDER / "references.bib").read_text(), re.MULTILINE))
-_KEY = re.compile(r"(?=[a-z_]*\d)[A-Za-z]\w*")
+_ENTRIES = entries((FOLDER / "references.bib").read_text(encoding="utf-8"))
 
 every_file = pytest.mark.parametrize("path", FILES, ids=reference_of)
-
-
-def bibliography_keys(source: str) -> list[str]:
-    """The words of a source's first clause that look like keys: letters, then digits."""
-    return [word for word in re.findall(r"\w+", source.split(":")[0]) if _KEY.fullmatch(word)]
 
 
 def parameters_of(found: Primitive | Composite) -> dict[str, tuple[str, bool]]:
@@ -37,7 +37,16 @@ def parameters_of(found: Primitive | Composite) -> dict[str, tuple[str, bool]]:
 
 def test_the_library_is_found() -> None:
     assert {"muscle/geyer2003", "segment/rod", "measure/apex"} <= {reference_of(f) for f in FILES}
-    assert {"geyer2003", "geyer2010"} <= _KEYS
+    assert {"geyer2003", "geyer2010"} <= set(_ENTRIES)
+
+
+@pytest.mark.parametrize("key", sorted(_ENTRIES))
+def test_an_entry_of_the_bibliography_is_whole(key: str) -> None:
+    text = (FOLDER / "references.bib").read_text(encoding="utf-8")
+    assert len(re.findall(rf"^@\w+\{{{key},", text, re.MULTILINE)) == 1, "it stands there twice"
+    fields = set(re.findall(r"^\s*(\w+)\s*=", _ENTRIES[key], re.MULTILINE))
+    assert {"author", "title", "year"} <= fields
+    assert _ENTRIES[key].endswith("\n}") and _ENTRIES[key].count("{") == _ENTRIES[key].count("}")
 
 
 @every_file
@@ -68,8 +77,38 @@ def test_every_default_has_a_source(path: Path) -> None:
 @every_file
 def test_every_source_that_is_a_key_is_in_the_bibliography(path: Path) -> None:
     sources = parameters_of(component(reference_of(path)))
-    keys = {key for source, _ in sources.values() for key in bibliography_keys(source)}
-    assert keys - _KEYS == set()
+    keys = {key for source, _ in sources.values() for key in keys_of(source)}
+    assert keys - set(_ENTRIES) == set()
+
+
+@every_file
+def test_every_number_has_bounds_and_its_default_is_within(path: Path) -> None:
+    found = component(reference_of(path))
+    for name, one in found.parameters.items():
+        low, high = one.bounds or ((-math.inf, math.inf) if one.unit == "*" else (math.nan, math.nan))
+        assert low < high, f"{name} has no bounds"
+        assert one.default is None or low <= one.default <= high, name
+
+
+@every_file
+def test_a_review_finds_nothing(path: Path) -> None:
+    assert [str(fault) for fault in review(reference_of(path), Library((FOLDER,)))] == []
+
+
+@every_file
+def test_it_draws_its_curves_or_says_why_it_has_none(path: Path) -> None:
+    found = component(reference_of(path))
+    drawn = graphs(found)
+    if not drawn:
+        assert not getattr(found, "curves", None)
+        assert why_no_curves(found)
+        return
+    for graph in drawn:
+        assert graph.doc.strip()
+        for line in graph.lines:
+            assert np.isfinite(line.y).mean() > 0.5, f"{graph.name}: half of it is no number"
+    # A flat line tells nothing: some graph must have shape.
+    assert any(np.ptp(line.y[np.isfinite(line.y)]) > 0 for graph in drawn for line in graph.lines)
 
 
 @every_file

@@ -13,7 +13,7 @@ from gaitsim.simulation.run import Simulator
 SPEC = Path(__file__).parents[2] / "specs" / "hopping_leg_mass.yaml"
 PATH = (
     "{use: path/constant_arm, moment_arm: -4 cm, reference_length: 0.5 m, reference_angle: 70 deg,"
-    " angle: {from: knee.angle}, to: {moment: knee.torque}}"
+    " angle: {from: knee.angle}, angular_velocity: {from: knee.velocity}, to: {moment: knee.torque}}"
 )
 
 

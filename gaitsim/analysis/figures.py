@@ -1,0 +1,35 @@
+"""Every function that makes figures of a run; each decides by the model's parts whether it has some."""
+
+from __future__ import annotations
+
+from gaitsim.analysis.convergence import convergence_figures, tuned_figures
+from gaitsim.analysis.drawing import Figures
+from gaitsim.analysis.energies import balance, energy_figures
+from gaitsim.analysis.hopping import hopping_figures
+from gaitsim.analysis.motion import motion_figures
+from gaitsim.analysis.muscles import muscle_figures
+from gaitsim.analysis.replay import Replay
+from gaitsim.analysis.sweep import sweep_figures
+
+FIGURES: tuple[Figures, ...] = (
+    sweep_figures,
+    convergence_figures,
+    tuned_figures,
+    hopping_figures,
+    energy_figures,
+    muscle_figures,
+    motion_figures,
+)
+
+
+def missing(replay: Replay) -> list[str]:
+    """Which figures a run lacks that others have, and why; words for its reader."""
+    count = len(replay.times)
+    if count < 2:
+        instants = "one instant only" if count else "no instant"
+        why = f"; it {replay.ending}" if replay.ending else ""
+        return [f"{replay.label} has {instants}, so nothing is drawn over time{why}."]
+    if balance(replay) is None:
+        move = "add energy: {use: sensor/mechanical_energy} to its parts"
+        return [f"{replay.label} reports no kinetic and potential energy, so none is drawn; {move}."]
+    return []

@@ -1,0 +1,137 @@
+"""A run that is looked at: a model at one candidate, and its outcome with every signal."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gaitsim.errors import Usage
+from gaitsim.model import Model
+from gaitsim.results.manifest import changed_versions
+from gaitsim.results.source import Source
+from gaitsim.results.store import row_data
+from gaitsim.results.verify import differences
+from gaitsim.simulation.outcome import Outcome, Trajectory
+from gaitsim.simulation.run import Mode, Simulator
+
+
+@dataclass(frozen=True)
+class Replay:
+    """One recorded run.
+
+    label: how legends call it. path: the spec, or the result folder. model: started at the values
+    that were run. manifest: of the result; empty for a spec. notices: what its reader should know.
+    """
+
+    label: str
+    path: Path
+    model: Model
+    outcome: Outcome
+    manifest: Mapping[str, Any] = field(default_factory=dict)
+    notices: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """The model's name."""
+        return self.model.name
+
+    @property
+    def folder(self) -> Path | None:
+        """The result folder; None if a spec was run."""
+        return self.path if self.manifest else None
+
+    @property
+    def values(self) -> tuple[float, ...]:
+        """The candidate: a value for each of `model.free`, in SI."""
+        return tuple(self.model.start)
+
+    @property
+    def trajectory(self) -> Trajectory:
+        """Every signal at every instant, up to the failure if there was one; perhaps without an instant."""
+        return self.outcome.trajectory or Trajectory(np.zeros(0), (), (), np.zeros((0, 0)))
+
+    @property
+    def times(self) -> NDArray[np.float64]:
+        """The instants, in seconds."""
+        return self.trajectory.times
+
+    @property
+    def ending(self) -> str:
+        """How the run ended, in words; empty if it ran its whole time."""
+        outcome = self.outcome
+        if outcome.status == "completed":
+            return ""
+        stopped = f"stopped by {outcome.reason} after {outcome.simulated_seconds:g} s"
+        return stopped if outcome.status == "stopped" else f"failed: {outcome.reason}"
+
+    @property
+    def reaches_end(self) -> bool:
+        """Whether the run's last instant is among those that are looked at."""
+        last = (self.outcome.steps - 1) * self.outcome.step
+        return bool(self.times.size and self.times[-1] > last - 1e-9)
+
+    def between(self, begin: float | None, end: float | None) -> Replay:
+        """The same run, of which only the instants from `begin` to `end` in seconds are looked at."""
+        whole = self.trajectory
+        low, high = -np.inf if begin is None else begin, np.inf if end is None else end
+        kept = (whole.times >= low - 1e-12) & (whole.times <= high + 1e-12)
+        part = replace(whole, times=whole.times[kept], values=whole.values[kept])
+        return replace(self, outcome=replace(self.outcome, trajectory=part))
+
+    def every(self, interval: float) -> Replay:
+        """The same run, of which one instant in `interval` seconds is looked at, the first included.
+
+        Errors: Usage unless that is a whole number of steps.
+        """
+        steps = round(interval / self.outcome.step)
+        if steps < 1 or abs(steps * self.outcome.step - interval) > 1e-9:
+            rule = f"{self.label} has steps of {self.outcome.step:g} s; write a multiple of that"
+            raise Usage(f"one instant every {interval:g} s: {rule}.")
+        whole = self.trajectory
+        part = replace(whole, times=whole.times[::steps], values=whole.values[::steps])
+        return replace(self, outcome=replace(self.outcome, trajectory=part))
+
+
+def replayed(
+    model: Model,
+    path: Path,
+    label: str = "",
+    manifest: Mapping[str, Any] | None = None,
+    notices: Sequence[str] = (),
+    mode: Mode = "rapid",
+    duration: float | None = None,
+) -> Replay:
+    """Run a model once more, from its starts, and keep every signal; `duration` in seconds.
+
+    Errors: InvalidSpec, InvalidComponent. A run that fails is a Replay up to its failure.
+    """
+    if duration is not None:
+        model = replace(model, simulate=replace(model.simulate, duration=duration))
+    outcome = Simulator(model, mode).run(recorded=True)
+    return Replay(label or model.name, path, model, outcome, manifest or {}, tuple(notices))
+
+
+def replay_of(source: Source, path: Path, label: str = "", duration: float | None = None) -> Replay:
+    """Run a source, and note what its reader should know: other versions, a search that has not ended.
+
+    Errors: InvalidSpec, InvalidComponent.
+    """
+    model = source.model()
+    manifest = dict(source.manifest)
+    made = replayed(model, path, label or (path.name if manifest else path.stem), manifest, duration=duration)
+    notices = [*source.notices, *model.notices]
+    changed = changed_versions(manifest) if manifest else []
+    if changed:
+        notices.append(f"{path} was made with other versions ({', '.join(changed)})")
+    if manifest and manifest["status"] != "complete":
+        notices.append(f"{path} is not complete: its search is {manifest['status']}")
+    if source.recorded and duration is None:
+        found = differences(source.recorded, row_data({}, made.outcome))
+        if found:
+            notices.append(f"the replay of {path} differs from its record: {'; '.join(found[:3])}")
+    return replace(made, notices=tuple(notices))

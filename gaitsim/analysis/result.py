@@ -1,0 +1,135 @@
+"""A result in a notebook: its record, and its signals as labelled arrays."""
+
+from __future__ import annotations
+
+import csv
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gaitsim.analysis.replay import Replay, replay_of
+from gaitsim.exchange.labelled import labelled
+from gaitsim.model import Model, recorded_signals
+from gaitsim.results.manifest import BadResult, read_manifest
+from gaitsim.results.source import Source, source_of_result
+
+if TYPE_CHECKING:
+    import pandas
+    import xarray
+
+
+@dataclass(frozen=True)
+class Result:
+    """A result folder and one of its candidates; nothing is run before something is asked for.
+
+    >>> best = gaitsim.load("results/2026-11-22-hopping-3f9c")
+    >>> best.metrics["apex_height"]
+    >>> best.parameters()
+    >>> signals = best.trajectory()
+    >>> signals["extensor.force"].sel(time=slice(1, 2)).plot()
+
+    candidate: best, a rank, or GENERATION:INDEX of a search; of a study best, or the number of a run.
+    trust: run components that this machine does not know.
+    """
+
+    folder: Path
+    candidate: str = "best"
+    trust: bool = False
+
+    @cached_property
+    def manifest(self) -> dict[str, Any]:
+        """Status, versions, machine, commit, command, search. Errors: BadResult."""
+        return read_manifest(self.folder)
+
+    @cached_property
+    def source(self) -> Source:
+        """Spec, components and starts of the candidate. Errors: BadResult, Untrusted, Usage."""
+        return source_of_result(self.folder, (), self.trust, self.candidate)
+
+    @cached_property
+    def model(self) -> Model:
+        """The resolved model, started at the candidate. Errors: as `source`, InvalidSpec."""
+        return self.source.model()
+
+    @property
+    def metrics(self) -> dict[str, float]:
+        """The candidate's metrics as they were recorded, in SI (units: `model.metrics`); nan for none."""
+        recorded = self.source.recorded.get("metrics", {})
+        return {name: math.nan if value is None else float(value) for name, value in recorded.items()}
+
+    @property
+    def score(self) -> float:
+        """The candidate's cost as it was recorded; nan for none."""
+        score = self.source.recorded.get("score")
+        return math.nan if score is None else float(score)
+
+    def parameters(self) -> pandas.DataFrame:
+        """The tuned numbers by address: value of the candidate, unit, and bounds of the search, in SI."""
+        import pandas
+
+        rows = {f.address: {"value": f.start, "unit": f.unit, "low": f.low, "high": f.high} for f in self.model.free}
+        frame = pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "unit", "low", "high"])
+        return frame.rename_axis("address")
+
+    def history(self) -> pandas.DataFrame:
+        """A row for each generation of a search: evaluations, scores (costs), failed candidates.
+
+        Errors: BadResult for a run, or a search without a whole generation.
+        """
+        import pandas
+
+        path = self.folder / "generations.csv"
+        if self.manifest["kind"] != "optimize":
+            raise BadResult(f"{self.folder}: this is the result of a run; only a search has a history.")
+        try:
+            with path.open(encoding="utf-8", newline="") as file:
+                rows = [{name: _number(text) for name, text in row.items()} for row in csv.DictReader(file)]
+            return pandas.DataFrame(rows).set_index("generation")
+        except (OSError, ValueError, KeyError) as error:
+            raise BadResult(f"{path}: this cannot be read ({error}); continue the search with --resume.") from error
+
+    def replay(self, duration: float | None = None) -> Replay:
+        """The candidate run once more with every signal; `duration` in seconds, if not the spec's.
+
+        Errors: as `model`, InvalidComponent. A run that fails is a Replay up to its failure.
+        """
+        return replay_of(self.source, self.folder, duration=duration)
+
+    def trajectory(self, duration: float | None = None) -> xarray.Dataset:
+        """Every output and state of the candidate's run as labelled arrays over `time` in seconds.
+
+        Each variable has the signal's address as its name, and `units` and `long_name` as attributes;
+        numbers are SI. Attributes of the whole: status, reason, notices, origin.
+        Errors: as `replay`.
+        """
+        return dataset(self.replay(duration))
+
+
+def _number(text: str) -> float | int:
+    """A cell of a table; nan if it is empty. Errors: ValueError."""
+    return int(text) if text.isdecimal() else float(text or math.nan)
+
+
+def dataset(replay: Replay) -> xarray.Dataset:
+    """The signals of a run as labelled arrays, with where they come from."""
+    trajectory = replay.trajectory
+    signals = recorded_signals(replay.model) if trajectory.signals else ()
+    about = {
+        "title": replay.name,
+        "source": str(replay.path),
+        "gaitsim": str(replay.manifest.get("gaitsim", "")),
+        "status": replay.outcome.status,
+        "reason": replay.outcome.reason,
+        "notices": "\n".join(replay.notices),
+        "parameters": ", ".join(f"{free.address} = {free.start!r} {free.unit}" for free in replay.model.free),
+    }
+    return labelled(trajectory, signals, about)
+
+
+def load(folder: str | Path, candidate: str = "best", trust: bool = False) -> Result:
+    """A result folder. Errors: BadResult if it is none, or is damaged."""
+    made = Result(Path(folder), str(candidate), trust)
+    _ = made.manifest
+    return made

@@ -1,0 +1,99 @@
+"""From one event to the next: maxima of a signal, and where their return map stands still."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+PROMINENCE = 0.05  # of the signal's range: smaller rises are no event
+_SETTLED = 1e-3  # of the events' size
+_CLEAR = 5e-5  # of the events' size: a maximum is known to a time step only
+
+
+@dataclass(frozen=True)
+class FixedPoint:
+    """A value that returns to itself, and the slope of the map there: below 1 in size, it is stable.
+
+    slope: None if the events are too close to the value, from the first on, to tell.
+    """
+
+    value: float
+    slope: float | None
+
+
+def maxima(values: Floats, prominence: float = PROMINENCE) -> NDArray[np.int64]:
+    """The places of the local maxima that rise above what is before and behind them.
+
+    prominence: how far, as a fraction of the signal's range. The first and the last instant are
+    no maxima, as their other side is not known.
+    """
+    if values.size < 3 or not np.isfinite(values).all():
+        return np.zeros(0, dtype=np.int64)
+    least = prominence * float(np.ptp(values))
+    if least == 0:
+        return np.zeros(0, dtype=np.int64)
+    found: list[int] = []
+    high = low = 0
+    rising = False
+    for place in _turns(values):
+        if values[place] > values[high]:
+            high = place
+        if values[place] < values[low]:
+            low = place
+        if rising and values[high] - values[place] > least:
+            found.append(high)
+            rising, low = False, place
+        elif not rising and values[place] - values[low] > least:
+            rising, high = True, place
+    return np.array([place for place in found if place > 0], dtype=np.int64)
+
+
+def _turns(values: Floats) -> list[int]:
+    """Where a signal turns, with its ends: all that a search for extremes must look at."""
+    steps = np.sign(np.diff(values))
+    moving = np.flatnonzero(steps)
+    if not moving.size:
+        return [0]
+    turning = moving[:-1][np.diff(steps[moving]) != 0] + 1
+    return [0, *turning.tolist(), values.size - 1]
+
+
+def fixed_point(events: Floats) -> FixedPoint | None:
+    """Where the map from one event to the next meets the diagonal; None if the events do not say.
+
+    If they settle, it is where they do or will do, and the slope is that of the last steps on the way there.
+    Else it is where two neighbouring points of the map lie on either side of the diagonal.
+    """
+    if events.size < 3:
+        return None
+    now, after = events[:-1], events[1:]
+    scale = max(float(np.abs(events).max()), 1e-12)
+    last = float(after[-1] - now[-1])
+    if abs(last) < _SETTLED * scale:
+        slope = _approach(events, scale)
+        # Aitken: what is still to come, if every step goes on to shrink as the last ones did.
+        rest = last * slope / (1 - slope) if slope is not None and abs(slope) < 1 else 0.0
+        return FixedPoint(float(after[-1]) + rest, slope)
+    order = np.argsort(now)
+    x, above = now[order], (after - now)[order]
+    crossing = np.flatnonzero((above[:-1] > 0) & (above[1:] <= 0) | (above[:-1] < 0) & (above[1:] >= 0))
+    crossing = crossing[np.diff(x)[crossing] > 0]
+    if not crossing.size:
+        return None
+    i = int(crossing[0])
+    rise = float((above[i + 1] - above[i]) / (x[i + 1] - x[i]))
+    return FixedPoint(float(x[i] - above[i] / rise), 1 + rise)
+
+
+def _approach(events: Floats, scale: float) -> float | None:
+    """By how much a step shrinks from one event to the next, of the last steps that are clear."""
+    steps = np.diff(events)
+    clear = np.abs(steps) > _CLEAR * scale
+    usable = np.flatnonzero(clear[:-1] & clear[1:])[-2:]
+    if not usable.size:
+        return None
+    before, behind = steps[usable], steps[usable + 1]
+    return float(np.dot(before, behind) / np.dot(before, before))

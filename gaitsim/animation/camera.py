@@ -1,0 +1,105 @@
+"""Where the camera looks: along with the motion, without its bounces."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import mujoco
+import numpy as np
+from numpy.typing import NDArray
+
+from gaitsim.animation.posture import Floats, Posture
+
+FIELD = 20.0  # degrees of view from top to bottom: narrow, so that lengths are nearly to scale
+_ELEVATION = -6.0  # degrees
+_SMOOTHING = 0.5  # s, standard deviation: several hops or steps become a line
+_STILL = 1.6
+_ABOVE, _BELOW, _BESIDE = 0.14, 0.06, 0.05  # of the picture, kept free; there are words above
+_ROOM = 0.3  # of the body's height: the longest force arrow
+
+
+@dataclass(frozen=True)
+class Views:
+    """The point that is looked at for each frame (frames x 3, m), and how far away the camera stands (m).
+
+    newtons: what an arrow of one metre stands for.
+    """
+
+    points: Floats
+    distance: float
+    newtons: float
+
+    @property
+    def half_height(self) -> float:
+        """Of what is seen at the body, in m."""
+        return self.distance * math.tan(math.radians(FIELD / 2))
+
+    def pixels_of_a_metre(self, height: int) -> float:
+        """At the body, in a picture of this height in pixels."""
+        return height / (2 * self.half_height)
+
+    def camera(self, frame: int) -> mujoco.MjvCamera:
+        """From the right side, so that forwards is to the right."""
+        camera = mujoco.MjvCamera()
+        camera.azimuth, camera.elevation, camera.distance = 90.0, _ELEVATION, self.distance
+        camera.lookat[:] = self.points[frame]
+        return camera
+
+
+def follow(posture: Posture, rows: NDArray[np.int64], spacing: float, aspect: float) -> Views:
+    """Views of the given instants, `spacing` seconds apart, for a picture `aspect` times as wide as high."""
+    centers, lows, highs = np.zeros((len(rows), 3)), np.zeros((len(rows), 3)), np.zeros((len(rows), 3))
+    for k, row in enumerate(rows):
+        posture.take(int(row))
+        centers[k] = posture.center_of_mass
+        lows[k], highs[k] = posture.extent
+    newtons = _scale(posture, rows, float(np.max(highs[:, 2] - lows[:, 2])))
+    if posture.stage.forces:
+        lows[:, 2] = np.minimum(lows[:, 2], 0)
+    points, half = _centered(_smooth(centers, spacing), lows, highs)
+    still, still_half = _centered(np.zeros_like(centers), lows, highs)
+    for axis in (0, 2):
+        # A picture that stands still is better, as long as the body stays about as large in it.
+        if still_half[axis] < _STILL * half[axis]:
+            points[:, axis], half[axis] = still[:, axis], still_half[axis]
+    points[:, 1] = 0
+    high = max(half[2] / (1 - _ABOVE - _BELOW), half[0] / aspect / (1 - 2 * _BESIDE), 0.05)
+    points[:, 2] += (_ABOVE - _BELOW) * high
+    return Views(points, high / math.tan(math.radians(FIELD / 2)), newtons)
+
+
+def _centered(path: Floats, lows: Floats, highs: Floats) -> tuple[Floats, Floats]:
+    """A path moved so that what is seen reaches as far to either side of it, and how far that is."""
+    above, below = np.max(highs - path, axis=0), np.max(path - lows, axis=0)
+    return path + (above - below) / 2, (above + below) / 2
+
+
+def _scale(posture: Posture, rows: NDArray[np.int64], height: float) -> float:
+    """Newtons for a metre of arrow: 1, 2 or 5 times a power of ten, so that the longest has room."""
+    columns = [
+        posture.trajectory.signals.index(signal)
+        for force in posture.stage.forces
+        for signal in (force.up, force.forward)
+        if signal is not None
+    ]
+    shown = posture.trajectory.values[rows][:, columns]
+    largest = float(np.max(np.abs(shown), initial=0.0))
+    if largest <= 0:
+        return 1000.0
+    least = largest / max(_ROOM * height, 0.01)
+    power = 10.0 ** math.floor(math.log10(least))
+    return next(step * power for step in (1, 2, 5, 10) if step * power >= least)
+
+
+def _smooth(path: Floats, spacing: float) -> Floats:
+    """A moving mean with a bell's weights; beyond its ends the path goes on as it came."""
+    reach = min(len(path) - 1, math.ceil(3 * _SMOOTHING / spacing))
+    if reach < 1:
+        return path.copy()
+    weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) * spacing / _SMOOTHING) ** 2)
+    before = 2 * path[0] - path[reach:0:-1]
+    after = 2 * path[-1] - path[-2 : -reach - 2 : -1]
+    longer = np.concatenate([before, path, after])
+    columns = [np.convolve(longer[:, axis], weights / weights.sum(), mode="valid") for axis in range(3)]
+    return np.stack(columns, axis=1)

@@ -1,0 +1,87 @@
+"""What is written on the picture: name, time, speed, and what colours and arrows mean."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gaitsim.animation import colours
+from gaitsim.animation.lettering import Words, write
+
+Pixels = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Caption:
+    """The words on pictures of one size, in pixels.
+
+    newtons: what an arrow of a metre stands for; None without arrows. metre: its length in pixels.
+    """
+
+    name: str
+    speed: float
+    width: int
+    height: int
+    muscles: bool
+    newtons: float | None
+    metre: float
+
+    @property
+    def font(self) -> int:
+        """Size of letters in pixels."""
+        return max(10, round(min(self.width / 30, self.height / 36)))
+
+    def put_on(self, picture: Pixels, time: float) -> Pixels:
+        """A picture with its words, at a time in seconds."""
+        picture, font = np.array(picture), self.font
+        edge = 0.7 * font
+        words = [
+            Words(self.name, edge, edge, font, "la", bold=True),
+            Words(f"t = {time:.3f} s", edge, edge + 1.5 * font, font, "la"),
+            Words(speed_words(self.speed), edge, edge + 3.0 * font, font, "la"),
+        ]
+        row = self.height - edge - 0.5 * font
+        if self.newtons is not None:
+            words.append(self._arrow(picture, row, self.newtons))
+            row -= 1.6 * font
+        if self.muscles:
+            words += self._bar(picture, row)
+        return write(picture, words)
+
+    def _arrow(self, picture: Pixels, row: float, newtons: float) -> Words:
+        """How long a round number of newtons is drawn."""
+        force = round_below(newtons * 0.2 * self.width / self.metre)
+        left, right = round(0.7 * self.font), round(0.7 * self.font + force / newtons * self.metre)
+        half, head = max(1, round(0.08 * self.font)), round(0.45 * self.font)
+        middle, colour = round(row), [round(255 * part) for part in colours.FORCE]
+        picture[middle - half : middle + half + 1, left : right - head] = colour
+        for step in range(head + 1):
+            reach = round(0.6 * step)
+            picture[middle - reach : middle + reach + 1, right - step] = colour
+        text = f"{force / 1000:g} kN" if force >= 1000 else f"{force:g} N"
+        return Words(f"{text} of ground force", right + 0.5 * self.font, row, self.font, "lm")
+
+    def _bar(self, picture: Pixels, row: float) -> list[Words]:
+        """The colours of activation from 0 to 1."""
+        left, font = 0.7 * self.font, self.font
+        begin, end = round(left + font), round(left + font + 0.2 * self.width)
+        half = round(0.35 * font)
+        picture[round(row) - half : round(row) + half + 1, begin:end] = colours.scale(end - begin)
+        return [
+            Words("0", left, row, font, "lm"),
+            Words("1  muscle activation", end + 0.3 * font, row, font, "lm"),
+        ]
+
+
+def speed_words(speed: float) -> str:
+    """How fast the video is, in words."""
+    return f"{speed:g} × real time"
+
+
+def round_below(number: float) -> float:
+    """The largest of 1, 2, 5 times a power of ten that is not above a number."""
+    power = 10.0 ** math.floor(math.log10(number))
+    return max(step * power for step in (1, 2, 5) if step * power <= number * (1 + 1e-9))

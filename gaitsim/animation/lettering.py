@@ -1,0 +1,50 @@
+"""Words on pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+Pixels = NDArray[np.uint8]
+INK = (30, 34, 40)
+
+
+@dataclass(frozen=True)
+class Words:
+    """A line of text at a place in pixels from the left and the top, where its `anchor` is; size in pixels.
+
+    anchor: l, m or r (left, middle, right) and a, m or s (top, middle, baseline).
+    """
+
+    text: str
+    left: float
+    top: float
+    size: int
+    anchor: Literal["la", "lm", "ls", "ma", "mm", "ra", "rm", "rs"] = "la"
+    bold: bool = False
+    colour: tuple[int, int, int] = INK
+
+
+def write(pixels: Pixels, words: Sequence[Words]) -> Pixels:
+    """The pixels with words on them."""
+    image = Image.fromarray(np.ascontiguousarray(pixels))
+    draw = ImageDraw.Draw(image)
+    for each in words:
+        font = _font(each.size, each.bold)
+        draw.text((each.left, each.top), each.text, each.colour, font, anchor=each.anchor)
+    return np.asarray(image)
+
+
+@cache
+def _font(size: int, bold: bool) -> Any:
+    import matplotlib
+
+    name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
+    return ImageFont.truetype(str(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / name), size)

@@ -1,0 +1,49 @@
+"""What is drawn beside the bodies: massless limbs as lines, forces as arrows, activation as colour."""
+
+from __future__ import annotations
+
+import itertools
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from gaitsim.animation import colours
+from gaitsim.animation.camera import Views
+from gaitsim.animation.posture import Floats, Posture
+
+_ARROW = 0.012  # of half the height of what is seen: half the width of a shaft
+_HALVED = 2.0  # MuJoCo draws an arrow half as long as it is told
+_LEAST = 0.005  # of a metre: shorter arrows are left out
+
+
+def paint_muscles(posture: Posture) -> None:
+    """Colour the path of each muscle by its activation."""
+    for tendon, signal in posture.stage.muscles:
+        posture.stage.mechanics.tendon_rgba[tendon] = (*colours.of_activation(posture.signal(signal)), 1)
+
+
+def add(scene: Any, posture: Posture, views: Views) -> None:
+    """Add lines, and arrows as long and wide as these views have them, to a scene of MuJoCo's."""
+    width = _ARROW * views.half_height
+    for line in posture.stage.lines:
+        places = [posture.place(spot) for spot in line.spots]
+        for start, end in itertools.pairwise(places):
+            _connect(scene, mujoco.mjtGeom.mjGEOM_CAPSULE, line.radius, start, end, colours.LIMB)
+    for force in posture.stage.forces:
+        along = posture.force(force) / views.newtons
+        if np.linalg.norm(along) > _LEAST:
+            place = posture.place(force.spot)
+            # In front of the limb, or the limb would hide it.
+            place = place + np.array([0.0, -0.12, 0.0])
+            _connect(scene, mujoco.mjtGeom.mjGEOM_ARROW, width, place, place + _HALVED * along, colours.FORCE)
+
+
+def _connect(scene: Any, kind: Any, width: float, start: Floats, end: Floats, colour: tuple[float, ...]) -> None:
+    if scene.ngeom >= scene.maxgeom:
+        return
+    geom = scene.geoms[scene.ngeom]
+    rgba = np.array([*colour, 1], dtype=np.float32)
+    mujoco.mjv_initGeom(geom, kind.value, np.zeros(3), np.zeros(3), np.eye(3).ravel(), rgba)
+    mujoco.mjv_connector(geom, kind.value, width, start, end)
+    scene.ngeom += 1

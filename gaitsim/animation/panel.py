@@ -1,0 +1,181 @@
+"""Scopes beside the picture: drawn once by matplotlib, then only uncovered up to the present time."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gaitsim.analysis.style import PALETTE, shown_unit
+from gaitsim.animation.lettering import Words, write
+from gaitsim.model import Signal
+from gaitsim.simulation.outcome import Trajectory
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Pixels = NDArray[np.uint8]
+_DPI = 100
+_PAGE = 6.0  # s of motion that one page of scopes may show
+_POINTS = 4000  # of a line on a page: more than it has pixels
+_FAINT = 0.22
+_CURSOR = (200, 30, 30)
+
+
+@dataclass(frozen=True)
+class _Page:
+    """Scopes from one time to another: faint, and as they are uncovered; columns of the axes' ends."""
+
+    begin: float
+    end: float
+    faint: Pixels
+    full: Pixels
+    left: float
+    right: float
+    top: int
+    bottom: int
+
+
+@dataclass
+class Panel:
+    """Scopes of some signals over a stretch of time; sizes in pixels, times in seconds."""
+
+    trajectory: Trajectory
+    signals: Sequence[Signal]
+    width: int
+    height: int
+    begin: float
+    end: float
+    _pages: dict[int, _Page] = field(default_factory=dict, repr=False)
+    _rows: list[float] = field(default_factory=list, repr=False)
+
+    @property
+    def scale(self) -> float:
+        """Of letters and lines: 1 in a panel 740 pixels wide and 720 high."""
+        return max(0.55, min(self.width / 740, self.height / 720 * 1.2))
+
+    def picture(self, row: int) -> Pixels:
+        """The scopes at a recorded instant: height x width x 3."""
+        time = float(self.trajectory.times[row])
+        page = self._page(time)
+        share = (time - page.begin) / (page.end - page.begin)
+        column = round(page.left + share * (page.right - page.left))
+        pixels = page.faint.copy()
+        pixels[:, round(page.left) : column] = page.full[:, round(page.left) : column]
+        thick = max(1, round(1.5 * self.scale))
+        pixels[page.top : page.bottom, column : column + thick] = _CURSOR
+        return write(pixels, self._values(row, page))
+
+    def _values(self, row: int, page: _Page) -> list[Words]:
+        """The numbers at this instant, to the right of each scope."""
+        size, left = max(9, round(15 * self.scale)), page.right + 10 * self.scale
+        words = []
+        for signal, middle in zip(self.signals, self._rows, strict=True):
+            text = _shown(signal, float(self.trajectory[signal.address][row]), self._spans[signal.address])
+            words.append(Words(text, left, middle, size, "lm", bold=True))
+        return words
+
+    @cached_property
+    def _spans(self) -> dict[str, float]:
+        """From the lowest to the highest value of each signal."""
+        addresses = [signal.address for signal in self.signals]
+        return {address: float(np.ptp(self._kept(self.trajectory[address]))) for address in addresses}
+
+    def _kept(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+        times = self.trajectory.times
+        return values[(times >= self.begin - 1e-9) & (times <= self.end + 1e-9)]
+
+    def _page(self, time: float) -> _Page:
+        pages = max(1, math.ceil((self.end - self.begin) / _PAGE - 1e-9))
+        length = max(self.end - self.begin, 1e-3) / pages
+        number = min(pages - 1, int((time - self.begin) / length))
+        if number not in self._pages:
+            # Time runs on: a page that is left behind is not opened again.
+            self._pages = {number: self._drawn(self.begin + number * length, self.begin + (number + 1) * length)}
+        return self._pages[number]
+
+    def _drawn(self, begin: float, end: float) -> _Page:
+        from matplotlib.backends.backend_agg import FigureCanvasAgg
+        from matplotlib.figure import Figure
+
+        figure = Figure(figsize=(self.width / _DPI, self.height / _DPI), dpi=_DPI)
+        canvas: Any = FigureCanvasAgg(figure)
+        axes = self._axes(figure, begin, end)
+        images = []
+        for visible in (_FAINT, 1.0):
+            for each in axes:
+                for artist in (*each.lines, *each.collections):
+                    artist.set_alpha(visible if artist in each.lines else 0.35 * visible)
+            canvas.draw()
+            images.append(np.asarray(canvas.buffer_rgba())[..., :3].copy())
+        boxes = [each.get_window_extent() for each in axes]
+        self._rows = [self.height - (box.y0 + box.y1) / 2 for box in boxes]
+        top, bottom = round(self.height - boxes[0].y1), round(self.height - boxes[-1].y0)
+        return _Page(begin, end, images[0], images[1], boxes[0].x0, boxes[0].x1, top, bottom)
+
+    def _axes(self, figure: Figure, begin: float, end: float) -> list[Axes]:
+        """One scope below the other, named above its left end."""
+        font = 9.5 * self.scale
+        grid = figure.subplots(len(self.signals), 1, sharex=True, squeeze=False)
+        line, em = font * _DPI / 72 / self.height, font * _DPI / 72 / self.width
+        figure.subplots_adjust(
+            left=5.2 * em, right=1 - 8.2 * em, top=1 - 2.2 * line, bottom=4.0 * line, hspace=self._gap(line)
+        )
+        times = self.trajectory.times
+        kept = np.flatnonzero((times >= begin - 1e-9) & (times <= end + 1e-9))
+        kept = kept[:: max(1, len(kept) // _POINTS)]
+        for i, (each, signal) in enumerate(zip(grid[:, 0], self.signals, strict=True)):
+            values = self.trajectory[signal.address]
+            self._trace(each, times[kept], values[kept], PALETTE[i % len(PALETTE)], signal)
+            each.set_ylim(*_limits(self._kept(values), signal))
+            each.set_title(f"{signal.address} ({shown_unit(signal.unit)})", loc="left", fontsize=font, pad=0.3 * font)
+            each.tick_params(labelsize=0.9 * font, length=0.25 * font)
+            each.spines[["top", "right"]].set_visible(False)
+            each.grid(alpha=0.3, linewidth=0.6)
+            each.margins(x=0)
+        grid[-1, 0].set_xlim(begin, end)
+        grid[-1, 0].set_xlabel("time (s)", fontsize=font, labelpad=0.2 * font)
+        return list(grid[:, 0])
+
+    def _gap(self, line: float) -> float:
+        """Between two scopes, in heights of one: room for a title."""
+        count = len(self.signals)
+        return (2.3 * line * count) / max(0.05, 1 - 6.2 * line - 2.3 * line * (count - 1))
+
+    def _trace(self, axes: Axes, times: Any, values: Any, colour: str, signal: Signal) -> None:
+        if _is_phase(self.trajectory[signal.address], signal):
+            axes.fill_between(times, 0, values, step="post", color=colour, linewidth=0)
+            axes.plot(times, values, drawstyle="steps-post", color=colour, linewidth=1.2 * self.scale)
+            names = signal.levels or ("0", "1")
+            axes.set_yticks(range(len(names)), names)
+        else:
+            axes.plot(times, values, color=colour, linewidth=1.6 * self.scale)
+            axes.locator_params(axis="y", nbins=3)
+
+
+def _is_phase(values: NDArray[np.float64], signal: Signal) -> bool:
+    """Whether a signal tells one of a few cases: a state with levels, or 0 and 1 only."""
+    return bool(signal.levels) or (signal.unit == "1" and bool(np.all((values == 0) | (values == 1))))
+
+
+def _limits(values: NDArray[np.float64], signal: Signal) -> tuple[float, float]:
+    if signal.levels:
+        return -0.1, len(signal.levels) - 0.8
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    room = 0.06 * (high - low) or 0.5 * max(abs(high), 1e-6)
+    return low - room, high + room
+
+
+def _shown(signal: Signal, value: float, span: float) -> str:
+    """A number with as many decimals as its scope can tell apart, and its unit; or a level's name."""
+    if signal.levels:
+        return signal.levels[int(value)]
+    decimals = min(6, max(0, 2 - math.floor(math.log10(span)))) if span > 0 else 3
+    text = f"{value:.{decimals}f}".replace("-", "\N{MINUS SIGN}")
+    return text if signal.unit == "1" else f"{text} {shown_unit(signal.unit)}"

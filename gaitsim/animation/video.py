@@ -1,0 +1,161 @@
+"""A video of a recorded run: the moving body, and scopes in step with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from gaitsim.analysis.replay import Replay
+from gaitsim.animation import colours, scopes
+from gaitsim.animation.camera import Views, follow
+from gaitsim.animation.canvas import Canvas
+from gaitsim.animation.caption import Caption
+from gaitsim.animation.encoder import Encoder
+from gaitsim.animation.panel import Panel
+from gaitsim.animation.posture import Posture, rows_at
+from gaitsim.animation.refusal import CannotAnimate
+from gaitsim.animation.stage import stage_of
+from gaitsim.errors import Usage
+
+Pixels = NDArray[np.uint8]
+Progress = Callable[[int, int], None]
+ENDINGS = (".mp4", ".gif")
+_SHARE = 0.42  # of the width for the picture; of the height, if the video is upright, 0.5
+_SCOPE = 45  # pixels: the least height of one
+_SAMPLES = 6  # frames that a GIF's colours are taken from
+_SWATCH = 100  # rows of pixels
+
+
+@dataclass(frozen=True)
+class VideoOptions:
+    """How a video is made.
+
+    speed: seconds of motion in a second of video. rate: frames in a second; a GIF's is rounded to
+    what GIFs can have. size: width and height in pixels, made even. scopes: addresses or patterns of
+    signals; none for the usual ones. begin, end: times of the motion, in s.
+    """
+
+    speed: float = 1.0
+    rate: float | None = None
+    size: tuple[int, int] | None = None
+    scopes: Sequence[str] = ()
+    begin: float | None = None
+    end: float | None = None
+
+
+def record(
+    replay: Replay, path: Path, options: VideoOptions | None = None, progress: Progress | None = None
+) -> Path:
+    """Write the video of a run, as MP4 or GIF by the path's ending; `progress` hears of frames done, and of how many.
+
+    Errors: NoOpenGL, CannotAnimate, NoSuchSignal, Usage.
+    """
+    film = _Film(replay, path, options or VideoOptions())
+    with ExitStack() as stack:
+        canvas = stack.enter_context(film.canvas)
+        sample = film.sample(canvas) if film.is_gif else None
+        encoder = stack.enter_context(Encoder(path, film.rate, film.size, sample))
+        for k in range(len(film.rows)):
+            encoder.add(film.frame(canvas, k))
+            if progress is not None:
+                progress(k + 1, len(film.rows))
+    return path
+
+
+class _Film:
+    """Everything that the frames of one video have in common."""
+
+    def __init__(self, replay: Replay, path: Path, options: VideoOptions) -> None:
+        self.is_gif = path.suffix.lower() == ".gif"
+        self.rate = _rate(options, self.is_gif)
+        self.size = _size(options, self.is_gif)
+        _check(path, options, self.rate, self.size)
+        times = _times(replay, options, self.rate)
+        stage = stage_of(replay.model)
+        self.posture = Posture(stage, replay.trajectory)
+        self.rows = rows_at(replay.trajectory, times)
+        self.beside = self.size[0] >= self.size[1]
+        width, height = self.picture_size
+        rest = (self.size[0] - width, self.size[1]) if self.beside else (self.size[0], self.size[1] - height)
+        room = max(1, rest[1] // _SCOPE)
+        signals = scopes.chosen(replay.model, options.scopes) or scopes.usual(replay.model, stage)[:room]
+        _check_room(len(signals), room)
+        self.panel = Panel(replay.trajectory, signals, *rest, float(times[0]), float(times[-1]))
+        self.views: Views = follow(self.posture, self.rows, options.speed / self.rate, width / height)
+        newtons = self.views.newtons if stage.forces else None
+        metre = self.views.pixels_of_a_metre(height)
+        self.caption = Caption(replay.name, options.speed, width, height, bool(stage.muscles), newtons, metre)
+        self.canvas = Canvas(self.posture, width, height)
+
+    @property
+    def picture_size(self) -> tuple[int, int]:
+        """Of the part of a frame that shows the body."""
+        width, height = self.size
+        return (2 * round(_SHARE * width / 2), height) if self.beside else (width, 2 * round(height / 4))
+
+    def frame(self, canvas: Canvas, number: int) -> Pixels:
+        """One whole frame: height x width x 3."""
+        row = int(self.rows[number])
+        self.posture.take(row)
+        picture = self.caption.put_on(canvas.picture(self.views, number), float(self.panel.trajectory.times[row]))
+        return np.concatenate([picture, self.panel.picture(row)], axis=1 if self.beside else 0)
+
+    def sample(self, canvas: Canvas) -> Pixels:
+        """Frames from all over the video, and all colours of activation: what its colours must show."""
+        chosen = sorted({round(k) for k in np.linspace(0, len(self.rows) - 1, _SAMPLES)})
+        swatch = np.tile(colours.scale(self.size[0]), (_SWATCH, 1, 1))
+        return np.concatenate([*(self.frame(canvas, k) for k in chosen), swatch])
+
+
+def read_size(text: str) -> tuple[int, int]:
+    """Width and height of a text such as 1280x720. Errors: Usage."""
+    width, _, height = text.lower().partition("x")
+    if not (width.isdecimal() and height.isdecimal()):
+        raise Usage(f"--size {text}: width x height in pixels, such as 1280x720.")
+    return int(width), int(height)
+
+
+def _rate(options: VideoOptions, is_gif: bool) -> float:
+    """Frames in a second. A GIF shows each for a whole number of hundredths of a second, at least 2."""
+    rate = options.rate if options.rate is not None else (20.0 if is_gif else 30.0)
+    return 100.0 / max(2, round(100.0 / rate)) if is_gif and rate > 0 else rate
+
+
+def _size(options: VideoOptions, is_gif: bool) -> tuple[int, int]:
+    width, height = options.size or ((800, 450) if is_gif else (1280, 720))
+    return 2 * (width // 2), 2 * (height // 2)
+
+
+def _check(path: Path, options: VideoOptions, rate: float, size: tuple[int, int]) -> None:
+    if path.suffix.lower() not in ENDINGS:
+        raise Usage(f"{path}: a video ends in {' or '.join(ENDINGS)}.")
+    if not options.speed > 0:
+        raise Usage(f"--speed {options.speed:g}: seconds of motion in a second of video, above 0, such as 0.25.")
+    if not 1 <= rate <= 240:
+        raise Usage(f"--fps {rate:g}: frames in a second, from 1 to 240.")
+    if min(size) < 200 or max(size) > 4096:
+        raise Usage(f"--size {size[0]}x{size[1]}: width x height in pixels, each from 200 to 4096.")
+
+
+def _check_room(wanted: int, room: int) -> None:
+    if wanted > room:
+        raise Usage(f"--scopes: {wanted} signals match, and this size has room for {room}; narrow it.")
+
+
+def _times(replay: Replay, options: VideoOptions, rate: float) -> NDArray[np.float64]:
+    """The time of each frame."""
+    known = replay.trajectory.times
+    if len(known) == 0:
+        raise CannotAnimate(f"{replay.label}: no motion was recorded, so there is no video ({replay.ending}).")
+    first, last = float(known[0]), float(known[-1])
+    begin = first if options.begin is None else max(first, options.begin)
+    end = last if options.end is None else min(last, options.end)
+    if begin > end:
+        raise Usage(f"there is no motion from {begin:g} s to {end:g} s; it goes from {first:g} s to {last:g} s.")
+    frames = int((end - begin) * rate / options.speed + 1e-6) + 1
+    return begin + np.arange(frames, dtype=np.float64) * (options.speed / rate)

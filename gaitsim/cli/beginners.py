@@ -1,0 +1,81 @@
+"""What `gaitsim new` puts into a folder: texts by file name."""
+
+from __future__ import annotations
+
+from gaitsim.errors import Usage, did_you_mean
+from gaitsim.parts.find import Library, shipped_folder, shipped_specs
+from gaitsim.parts.skeleton import new_component, test_of
+from gaitsim.spec.document import Mapping, parse
+
+_README = """\
+# {title}
+
+A study with gaitsim: everything here is yours to change.
+
+| file | what it is |
+|---|---|
+| `{origin}.yaml` | a model that gaitsim ships, as it is |
+| `my_{origin}.yaml` | the same with `controller/my_reflex` in one place |
+| `components/controller/my_reflex.py` | a component of your own: parameters, ports, one equation |
+| `tests/test_my_reflex.py` | its test, on plain numbers: `pytest` |
+
+## Next steps
+
+    gaitsim run my_{origin}.yaml                       # metrics of one run
+    gaitsim check my_{origin}.yaml --convergence       # is the step short enough?
+    gaitsim optimize my_{origin}.yaml --smoke          # a search of a few seconds; leave --smoke out for a whole one
+    gaitsim results list
+    gaitsim analyze results/RESULT                     # figures, video, report.html
+    gaitsim cite my_{origin}.yaml                      # BibTeX of what the model uses
+
+Change the equation in `components/controller/my_reflex.py`, then:
+
+    gaitsim library check components                   # names, units, sources, bounds
+    gaitsim library show controller/my_reflex --plot   # its curves
+    gaitsim library list                               # what else there is to swap in
+    gaitsim library new muscle my_muscle               # the next part of your own
+"""
+_VARIANT = """\
+gaitsim: 1
+about: >-
+  {origin} with a reflex of my own in the place of its feedback.
+
+extends: {origin}.yaml
+parts:
+  {feedback}:
+    use: controller/my_reflex
+"""
+
+
+def study(origin: str) -> dict[str, str]:
+    """The files of a new folder that begins with a shipped spec.
+
+    Errors: Usage.
+    """
+    specs = shipped_specs()
+    if origin not in specs:
+        raise Usage(f"--from {origin}: no such spec is shipped. {did_you_mean(origin, specs)}")
+    text = specs[origin].read_text(encoding="utf-8")
+    document = parse(text, f"{origin}.yaml")
+    if "extends" in document.entries:
+        choice = ", ".join(name for name in specs if "extends" not in parse(specs[name].read_text(), name).entries)
+        raise Usage(f"--from {origin}: this one extends another; begin with {choice}.")
+    file, component = new_component("controller", "my_reflex", Library((shipped_folder(),)))
+    files = {f"{origin}.yaml": text}
+    feedback = _feedback(document)
+    if feedback is not None:
+        files[f"my_{origin}.yaml"] = _VARIANT.format(origin=origin, feedback=feedback)
+        files[f"components/controller/{file}"] = component
+        files["tests/test_my_reflex.py"] = test_of("controller", "my_reflex")
+    return files | {"README.md": _README.format(title=f"My {origin.replace('_', ' ')}", origin=origin)}
+
+
+def _feedback(document: Mapping) -> str | None:
+    """The part of a spec that is a muscle's feedback."""
+    parts = document.entries.get("parts")
+    assert isinstance(parts, Mapping)
+    for name, node in parts.entries.items():
+        use = node.entries.get("use") if isinstance(node, Mapping) else None
+        if getattr(use, "value", "") == "controller/muscle_feedback":
+            return name
+    return None

@@ -1,0 +1,58 @@
+"""gaitsim cite: the references of a model as BibTeX."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gaitsim.cli import console
+from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust
+from gaitsim.cli.source import open_source
+
+if TYPE_CHECKING:
+    from gaitsim.results.source import Source
+
+
+def cite(spec: Spec, settings: Set = None, trust: Trust = False, library: Libraries = None, json: Json = False) -> None:
+    """Print BibTeX for what a model uses: sources of its numbers, components, MuJoCo, and the search that tuned it.
+
+    Examples:
+
+    gaitsim cite specs/hopping_leg_mass.yaml > used.bib
+
+    gaitsim cite results/2026-11-22-hopping-3f9c --json
+    """
+    from gaitsim.cli.options import open_library
+    from gaitsim.parts.bibliography import read_bibliography
+    from gaitsim.results.citation import citations
+
+    source = open_source(spec, settings, library, trusted=trust)
+    model = source.model()
+    # A result keeps its components but no bibliography: that is the library's.
+    folders = [*source.library.folders, *open_library(spec, library).folders]
+    found = citations(model, read_bibliography(folders), _algorithm(source))
+    if json:
+        console.give_json(
+            {
+                "entries": [{"key": e.key, "bibtex": e.bibtex, "used_by": e.used_by} for e in found.entries],
+                "words": found.words,
+            }
+        )
+        return
+    console.give("\n\n".join(entry.bibtex for entry in found.entries))
+    for text, places in found.words.items():
+        console.say(f"in words, to be cited by hand: {text} ({_few(places)})")
+
+
+def _algorithm(source: Source) -> tuple[str, ...]:
+    """The keys of the search whose values are in use; none if nothing was tuned."""
+    from gaitsim.optimization.algorithms import SOURCES
+    from gaitsim.spec.schema import optimize_section
+
+    if not source.starts:
+        return ()
+    searched = source.manifest.get("search", {}).get("algorithm")
+    return SOURCES.get(searched or optimize_section(source.document).algorithm, ())
+
+
+def _few(names: tuple[str, ...]) -> str:
+    return ", ".join(names if len(names) < 4 else [*names[:2], f"{len(names) - 2} more"])

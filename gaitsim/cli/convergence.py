@@ -1,0 +1,71 @@
+"""gaitsim check --convergence: the table of what a half and a quarter of the step change."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+
+from gaitsim.cli import console
+
+if TYPE_CHECKING:
+    from gaitsim.analysis.step_convergence import StepConvergence
+    from gaitsim.model import Model
+
+
+def convergence_of(models: Sequence[Model]) -> list[StepConvergence]:
+    """Each model at its step, a half and a quarter; failed runs are told."""
+    from gaitsim.analysis.step_convergence import step_convergence
+
+    found = []
+    for model in models:
+        found.append(step_convergence(model))
+        for step, outcome in zip(found[-1].steps, found[-1].outcomes, strict=True):
+            if outcome.status == "failed":
+                console.say(f"at a step of {_milliseconds(step)}: failed: {outcome.reason}")
+    return found
+
+
+def give(found: StepConvergence, tolerance: float) -> None:
+    """The table on stdout, and on stderr how many metrics change more than the tolerance."""
+    columns = ["metric", "unit", *(f"at {_milliseconds(step)}" for step in found.steps)]
+    rows = [
+        (
+            change.name,
+            change.unit,
+            *(console.shown(value) for value in change.values),
+            "-" if change.relative is None else f"{100 * change.relative:.3g} %",
+            console.shown(change.ratio),
+            console.shown(change.order),
+            change.flag(tolerance) and "<",
+        )
+        for change in found.changes
+    ]
+    console.give_table([*columns, "change", "ratio", "order", ""], rows)
+    flagged = [change.name for change in found.changes if change.flag(tolerance)]
+    if flagged:
+        limit = f"more than {100 * tolerance:g} %"
+        console.say(f"a quarter of the step changes {limit}, or has no value: {', '.join(flagged)}")
+
+
+def data(found: StepConvergence, tolerance: float) -> dict[str, Any]:
+    """The table for --json."""
+    return {
+        "steps": list(found.steps),
+        "status": [outcome.status for outcome in found.outcomes],
+        "tolerance": tolerance,
+        "metrics": {
+            change.name: {
+                "unit": change.unit,
+                "values": change.values,
+                "relative": change.relative,
+                "ratio": change.ratio,
+                "order": change.order,
+                "flag": change.flag(tolerance) or None,
+            }
+            for change in found.changes
+        },
+    }
+
+
+def _milliseconds(step: float) -> str:
+    return f"{1e3 * step:.4g} ms"

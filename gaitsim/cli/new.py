@@ -1,0 +1,48 @@
+"""gaitsim new: a folder to begin with, from a spec that is shipped."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from gaitsim.cli import console
+from gaitsim.cli.options import Json
+
+
+def _shipped(incomplete: str) -> list[str]:
+    from gaitsim.parts.find import shipped_specs
+
+    return [name for name in shipped_specs() if name.startswith(incomplete)]
+
+
+def new(
+    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="A folder that does not exist yet, such as demo.")],
+    origin: Annotated[
+        str, typer.Option("--from", metavar="NAME", help="Which shipped spec to begin with.", autocompletion=_shipped)
+    ] = "hopping_leg_mass",
+    json: Json = False,
+) -> None:
+    """Make a folder with a model that runs, a variant with a component of your own, its test and the next steps.
+
+    Examples:
+
+    gaitsim new demo
+
+    gaitsim new reflexes --from hopping_geyer2003
+    """
+    from gaitsim.cli.beginners import study
+    from gaitsim.cli.written import write_new
+    from gaitsim.errors import Usage
+
+    if folder.exists():
+        raise Usage(f"{folder} is there already; gaitsim new makes a folder of its own, so choose another name.")
+    files = study(origin)
+    write_new({folder / name: text for name, text in files.items()})
+    if json:
+        console.give_json({"folder": str(folder), "files": list(files)})
+        return
+    for name in files:
+        console.give(str(folder / name))
+    console.say(f"next: cd {folder} && gaitsim run my_{origin}.yaml; more in {folder / 'README.md'}")

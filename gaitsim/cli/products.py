@@ -1,0 +1,168 @@
+"""What an analysis leaves: figures, exports, a video, a report; each made even if another cannot be."""
+
+from __future__ import annotations
+
+import errno
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field, replace
+from functools import partial
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+from gaitsim.cli import console
+from gaitsim.errors import ExitCode, GaitsimError
+from gaitsim.results.store import CannotSave
+
+if TYPE_CHECKING:
+    from gaitsim.analysis.drawing import Drawing, Figures
+    from gaitsim.analysis.replay import Replay
+    from gaitsim.animation.video import VideoOptions
+
+T = TypeVar("T")
+
+
+@dataclass
+class Products:
+    """Files that were made in a folder, and what could not be made.
+
+    faults: what the user must mend. lacks: what the model or this machine has not, which is no failure.
+    """
+
+    folder: Path
+    figures: list[Path] = field(default_factory=list)
+    exports: list[Path] = field(default_factory=list)
+    drawings: list[Drawing] = field(default_factory=list)
+    video: Path | None = None
+    report: Path | None = None
+    faults: list[GaitsimError] = field(default_factory=list)
+    lacks: list[str] = field(default_factory=list)
+
+    @property
+    def exit_code(self) -> int:
+        """Of the first thing that could not be made."""
+        return self.faults[0].exit_code if self.faults else ExitCode.OK
+
+    def refuse(self, error: GaitsimError) -> None:
+        """Say what could not be made, and go on."""
+        console.say_error(error)
+        self.faults.append(error)
+
+    def remark(self, words: Sequence[str]) -> None:
+        """Say what is not there and is no failure."""
+        for word in words:
+            console.say(word)
+            self.lacks.append(word)
+
+    def refuse_if_others(self, error: GaitsimError, count: int) -> None:
+        """Note that one of several runs cannot be looked at; of the only one, the error itself tells."""
+        if count > 1:
+            console.say_error(error)
+        self.faults.append(error)
+
+    def attempt(self, what: str, make: Callable[[], T]) -> T | None:
+        """Make something; what stands in its way is said, and the rest goes on."""
+        try:
+            return make()
+        except GaitsimError as error:
+            self.refuse(error)
+        except OSError as error:
+            move = "free some space" if error.errno == errno.ENOSPC else "choose another --folder"
+            reason = error.strerror or str(error)
+            self.refuse(CannotSave(f"{self.folder}: {what} cannot be written ({reason}); {move}."))
+        return None
+
+    def draw(self, makers: Sequence[Callable[[], list[Drawing]]], formats: Sequence[str]) -> None:
+        """Make figures and write them, each under a name of its own."""
+        from gaitsim.analysis.drawing import save
+
+        taken: set[str] = set()
+        for maker in makers:
+            for drawing in self.attempt("a figure", maker) or []:
+                named = _renamed(drawing, taken)
+                self.drawings.append(named)
+                where = self.folder / "figures"
+                self.figures += self.attempt(f"the figure {named.name}", partial(save, [named], where, formats)) or []
+
+    def export(self, replays: Sequence[Replay], formats: Sequence[str], every: float | None) -> None:
+        """Write the signals of each run in each format: sto, csv, nc; one instant in `every` seconds, or all."""
+        for replay in replays:
+            for ending in formats:
+                path = self.folder / "exports" / f"{_plain(replay.label)}.{ending}"
+                if self.attempt(f"the export {path.name}", partial(_write, replay, path, every)):
+                    self.exports.append(path)
+
+    def film(self, replay: Replay, options: VideoOptions, ending: str) -> None:
+        """Write the video; a machine that cannot draw one says so in a line."""
+        from gaitsim.animation import NoOpenGL
+        from gaitsim.animation.video import record
+
+        def make() -> Path | None:
+            try:
+                return record(replay, self.folder / f"video.{ending}", options, console.progress("video"))
+            except NoOpenGL as error:
+                self.remark([str(error)])
+                return None
+
+        self.video = self.attempt("the video", make)
+
+    def write_report(self, replays: Sequence[Replay]) -> None:
+        """Write the page that has all of it."""
+        from gaitsim.analysis.report import write
+
+        path = self.folder / "report.html"
+        remarks = [*self.lacks, *(str(error) for error in self.faults)]
+        self.report = self.attempt("the report", partial(write, path, replays, self.drawings, self.video, remarks))
+
+
+def default_figures(replays: Sequence[Replay]) -> list[Callable[[], list[Drawing]]]:
+    """What is drawn of any result: several runs over each other, and the figures of each."""
+    from gaitsim.analysis.figures import FIGURES
+    from gaitsim.analysis.plots import overview
+
+    def of_run(figures: Figures, replay: Replay) -> Callable[[], list[Drawing]]:
+        return lambda: [_of_run(drawing, replay, len(replays) > 1) for drawing in figures(replay)]
+
+    over = [lambda: overview(replays)] if len(replays) > 1 else []
+    return [*over, *(of_run(figures, replay) for replay in replays for figures in FIGURES)]
+
+
+def _of_run(drawing: Drawing, replay: Replay, several: bool) -> Drawing:
+    if not several:
+        return drawing
+    label = _plain(replay.label)
+    return replace(drawing, name=f"{label}.{drawing.name}", title=f"{drawing.title}, {replay.label}")
+
+
+def _renamed(drawing: Drawing, taken: set[str]) -> Drawing:
+    """The drawing under a name that no other has."""
+    name, number = drawing.name, 1
+    while name.lower() in taken:
+        number += 1
+        name = f"{drawing.name}_{number}"
+    taken.add(name.lower())
+    return replace(drawing, name=name)
+
+
+def _write(replay: Replay, path: Path, every: float | None) -> Path:
+    """Errors: OSError, Usage."""
+    if every is not None:
+        replay = replay.every(every)
+    if path.suffix == ".sto":
+        from gaitsim.exchange.sto import write_sto
+
+        write_sto(path, replay.trajectory, replay.name)
+    elif path.suffix == ".csv":
+        from gaitsim.exchange.csv import write_csv
+
+        write_csv(path, replay.trajectory)
+    else:
+        from gaitsim.analysis.result import dataset
+        from gaitsim.exchange.labelled import write_netcdf
+
+        write_netcdf(path, dataset(replay))
+    return path
+
+
+def _plain(label: str) -> str:
+    """A label as part of a file's name."""
+    return "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in label)

@@ -1,0 +1,30 @@
+"""New files for a researcher: all of them or none, and never over one that is there."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+
+def write_new(files: Mapping[Path, str]) -> None:
+    """Write texts to files that do not exist yet, with their folders.
+
+    Errors: CannotSave, with nothing left behind.
+    """
+    from gaitsim.results.store import CannotSave
+
+    taken = [path for path in files if path.exists()]
+    if taken:
+        rule = "is there already and is never written over; choose another name, or move it away"
+        raise CannotSave(f"{taken[0]}: this {rule}.")
+    made: list[Path] = []
+    try:
+        for path, text in files.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            with path.open("x", encoding="utf-8") as file:
+                made.append(path)
+                file.write(text)
+    except OSError as error:
+        for path in made:
+            path.unlink(missing_ok=True)
+        raise CannotSave(f"{error.filename or made[-1]}: {error.strerror}; choose another --folder.") from error

@@ -1,0 +1,67 @@
+"""The ground as MuJoCo knows it: a plane through the world's origin, or boxes side by side for steps."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import mujoco
+
+GROUND = "world.ground"
+_FAR = 1000.0  # m: how far the first and the last tread reach
+_THICK = 1.0  # m
+
+
+def add_surface(spec: Any, name: str, angle: float, info: str) -> None:
+    """A site whose x axis runs along ground that rises forwards by an angle, and whose z axis is its normal."""
+    spec.worldbody.add_site(name=name, quat=_tilt(angle), size=[0.005] * 3, info=info)
+
+
+def add_ground(spec: Any, angle: float, edges: Sequence[tuple[float, float]], info: str) -> None:
+    """Geoms that `Mechanics.collide` keeps spheres out of; a second part may ask for the same ground.
+
+    Errors: ValueError if the ground is another already.
+    """
+    wanted = [_plane(angle)] if not edges else _treads(angle, edges)
+    present = [geom for geom in spec.worldbody.geoms if geom.name.startswith(GROUND)]
+    if present:
+        if not _same(present, wanted):
+            raise ValueError("there is one ground, and another part has made a different one; give both one terrain")
+        return
+    for number, shape in enumerate(wanted):
+        name = f"{GROUND}.{number}" if number else GROUND
+        spec.worldbody.add_geom(name=name, contype=1, conaffinity=0, info=info, **shape)
+
+
+def _plane(angle: float) -> dict[str, Any]:
+    return {"type": mujoco.mjtGeom.mjGEOM_PLANE, "size": [10, 10, 0.1], "pos": [0, 0, 0], "quat": _tilt(angle)}
+
+
+def _treads(angle: float, edges: Sequence[tuple[float, float]]) -> list[dict[str, Any]]:
+    """A box for each tread: before the first edge at height 0, behind each edge at the height given with it."""
+    begins = [-_FAR, *(position for position, _ in edges)]
+    ends = [*(position for position, _ in edges), _FAR]
+    heights = [0.0, *(height for _, height in edges)]
+    boxes = []
+    for begin, end, height in zip(begins, ends, heights, strict=True):
+        along, up = (begin + end) / 2, height - _THICK / 2
+        x = along * math.cos(angle) - up * math.sin(angle)
+        z = along * math.sin(angle) + up * math.cos(angle)
+        size = [(end - begin) / 2, 10, _THICK / 2]
+        boxes.append({"type": mujoco.mjtGeom.mjGEOM_BOX, "size": size, "pos": [x, 0, z], "quat": _tilt(angle)})
+    return boxes
+
+
+def _tilt(angle: float) -> list[float]:
+    # About y, which points to the left, a positive turn would lower what is in front.
+    return [math.cos(angle / 2), 0.0, -math.sin(angle / 2), 0.0]
+
+
+def _same(present: Sequence[Any], wanted: Sequence[dict[str, Any]]) -> bool:
+    if len(present) != len(wanted):
+        return False
+    return all(
+        geom.type == shape["type"] and all(list(getattr(geom, key)) == shape[key] for key in ("size", "pos", "quat"))
+        for geom, shape in zip(present, wanted, strict=True)
+    )

@@ -1,0 +1,43 @@
+"""Ports tied to numbers of MuJoCo's data."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from gaitsim.errors import did_you_mean, with_article
+
+
+@dataclass(frozen=True)
+class Element:
+    """A named element of the MuJoCo model: a joint, tendon, actuator, sensor or site."""
+
+    kind: str
+    name: str
+
+
+# What MuJoCo's data holds of each kind of element.
+_FIELDS = {
+    "joint": ("qpos", "qvel", "qacc", "qfrc_applied"),
+    "tendon": ("ten_length", "ten_velocity"),
+    "actuator": ("ctrl", "actuator_length", "actuator_velocity", "actuator_force"),
+    "sensor": ("sensordata",),
+}
+
+
+@dataclass(frozen=True)
+class Tie:
+    """A port tied to one number of MuJoCo's data, such as qpos of a joint."""
+
+    port: str
+    element: Element | None
+    field: str
+    index: int = 0
+    sign: float = 1.0
+
+
+def tied(port: str, element: Element, field_name: str, index: int, sign: float = 1.0) -> Tie:
+    """A port tied to a number that such an element has. Errors: ValueError."""
+    known = _FIELDS.get(element.kind, ())
+    if field_name not in known:
+        raise ValueError(f"{with_article(element.kind)} has no {field_name}. {did_you_mean(field_name, known)}")
+    return Tie(port, element, field_name, index, sign)

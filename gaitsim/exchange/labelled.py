@@ -1,0 +1,43 @@
+"""A trajectory as labelled arrays with units (xarray), and those as netCDF."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gaitsim.model import Signal
+from gaitsim.simulation.outcome import Trajectory
+
+if TYPE_CHECKING:
+    import xarray
+
+
+def labelled(trajectory: Trajectory, signals: Sequence[Signal], about: Mapping[str, Any]) -> xarray.Dataset:
+    """A dataset with a variable for each signal, named by its address, over the coordinate `time`.
+
+    Attributes of a variable: `units` and `long_name`, which plots of xarray use, and `flag_meanings`
+    with `flag_values` for a state with named levels (CF conventions). `about` describes the whole.
+    """
+    import xarray
+
+    variables = {}
+    for column, signal in enumerate(signals):
+        words: dict[str, Any] = {"units": signal.unit, "long_name": signal.doc.rstrip(".") or signal.address}
+        if signal.levels:
+            words |= {"flag_values": list(range(len(signal.levels))), "flag_meanings": " ".join(signal.levels)}
+        variables[signal.address] = ("time", trajectory.values[:, column], words)
+    time = ("time", trajectory.times, {"units": "s", "long_name": "time"})
+    return xarray.Dataset(variables, {"time": time}, dict(about))
+
+
+def write_netcdf(path: Path, data: xarray.Dataset) -> None:
+    """Write a dataset as netCDF-4. Errors: OSError."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    draft = path.with_name(f"{path.name}.partial")
+    try:
+        data.to_netcdf(draft, engine="h5netcdf")
+        draft.replace(path)
+    except OSError:
+        draft.unlink(missing_ok=True)
+        raise

@@ -1,0 +1,36 @@
+"""Numbers as text that reads back as the same numbers, written as a whole or not at all."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from typing import IO
+
+from gaitsim.simulation.outcome import Trajectory
+
+_BLOCK = 10_000  # rows that are text at a time
+
+
+def write_table(path: Path, head: str, trajectory: Trajectory, separator: str) -> None:
+    """A heading, then a row for each instant: time first. Errors: OSError, with nothing left behind."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    draft = path.with_name(f"{path.name}.partial")
+    try:
+        with draft.open("w", encoding="utf-8", newline="\n") as file:
+            file.write(head)
+            _write_rows(file, trajectory, separator)
+        draft.replace(path)
+    except OSError:
+        draft.unlink(missing_ok=True)
+        raise
+
+
+def _write_rows(file: IO[str], trajectory: Trajectory, separator: str) -> None:
+    for begin in range(0, trajectory.times.size, _BLOCK):
+        block = slice(begin, begin + _BLOCK)
+        file.writelines(_lines(trajectory, block, separator))
+
+
+def _lines(trajectory: Trajectory, block: slice, separator: str) -> Iterator[str]:
+    for time, row in zip(trajectory.times[block].tolist(), trajectory.values[block].tolist(), strict=True):
+        yield separator.join(map(repr, [time, *row])) + "\n"

@@ -1,0 +1,123 @@
+"""The first lines of a component of one's own, and a test of it."""
+
+from __future__ import annotations
+
+import keyword
+import re
+from pathlib import Path
+
+from gaitsim.errors import Usage, did_you_mean
+from gaitsim.parts.composite import Composite
+from gaitsim.parts.contract import read_contract
+from gaitsim.parts.find import KIND, SKELETON, Library, shown
+from gaitsim.spec.document import plain, read
+
+_CLASS = re.compile(r"^class \w+\(", re.MULTILINE)
+_TEST = '''"""{reference} on plain numbers, without a model around it."""
+
+from pathlib import Path
+
+import numpy as np
+from gaitsim.parts.find import Library, shipped_folder
+from gaitsim.parts.review import review
+from gaitsim.simulation.curves import graphs
+from gaitsim.simulation.trial import Trial
+
+LIBRARY = Library((Path(__file__).parents[1] / "components", shipped_folder()))
+COMPONENT = LIBRARY.find("{reference}")
+
+
+def trial() -> Trial:
+    """The component with every number at 0.5; put the numbers of your paper here, and test what it says of them."""
+    made = Trial(COMPONENT)
+    for numbers in made.arrays:
+        numbers[:] = 0.5
+    return made
+
+
+def test_it_keeps_the_contract() -> None:
+    assert [str(fault) for fault in review("{reference}", LIBRARY)] == []
+
+
+def test_native_code_and_python_agree() -> None:
+    rapid, normal = trial(), trial()
+    for stage in rapid.stages:
+        assert not rapid.call(stage, "rapid") and not normal.call(stage, "normal"), stage
+        for mine, theirs in zip(rapid.arrays, normal.arrays, strict=True):
+            np.testing.assert_allclose(mine, theirs, rtol=1e-12, err_msg=stage)
+
+
+def test_its_curves_are_numbers() -> None:
+    for graph in graphs(COMPONENT):
+        assert all(np.isfinite(line.y).any() for line in graph.lines), graph.name
+'''
+
+
+def new_component(kind: str, name: str, library: Library, like: str | None = None) -> tuple[str, str]:
+    """The file name and the text of a new component: from another one, the kind's skeleton, or its contract.
+
+    Errors: Usage.
+    """
+    _check_name(kind, name, library)
+    class_name = "".join(word.capitalize() for word in name.split("_"))
+    if like is not None:
+        other = library.find(like)
+        if other.kind != kind:
+            raise Usage(f"--like {like}: this is no {kind}; choose one of {', '.join(library.references(kind))}.")
+        if isinstance(other, Composite):
+            return f"{name}.yaml", other.source
+        return f"{name}.py", _CLASS.sub(f"class {class_name}(", other.source, count=1)
+    skeleton = next((f / kind / SKELETON for f in library.folders if (f / kind / SKELETON).is_file()), None)
+    if skeleton is not None:
+        return f"{name}.py", _CLASS.sub(f"class {class_name}(", skeleton.read_text(encoding="utf-8"), count=1)
+    contract = library.kind_file(kind)
+    assert contract is not None
+    return f"{name}.py", _from_contract(class_name, contract)
+
+
+def test_of(kind: str, name: str) -> str:
+    """A test file for a new primitive, to stand in a folder beside components/."""
+    return _TEST.format(reference=f"{kind}/{name}")
+
+
+def _check_name(kind: str, name: str, library: Library) -> None:
+    if library.kind_file(kind) is None:
+        move = f"for a kind of your own, write components/{kind}/{KIND} first"
+        raise Usage(f"there is no kind {kind}. {did_you_mean(kind, library.kinds())} Or, {move}.")
+    if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or keyword.iskeyword(name) or f"{name}.yaml" == KIND:
+        raise Usage(f"{name} is no name for a component; write small letters, digits and _, such as my_{kind}.")
+    known = library.path(f"{kind}/{name}")
+    if known is not None:
+        raise Usage(f"{kind}/{name} is there already ({shown(known)}); choose another name.")
+
+
+def _from_contract(class_name: str, contract: Path) -> str:
+    """A component that has all that its kind asks for, and does nothing yet."""
+    asked = read_contract(contract, shown(contract))
+    about = str(plain(read(contract)).get("about", "Write here what it computes."))
+    lines = [
+        *(f'    {n} = Parameter("{u}", "{_words(n)}.", bounds=(0, 1e6))' for n, u in asked["parameters"].items()),
+        *(f'    {n} = Input("{u}", "{_words(n)}.")' for n, u in asked["inputs"].items()),
+        *(f'    {n} = Output("{u}", "{_words(n)}.")' for n, u in asked["outputs"].items()),
+        *(f'    {n} = Metric("{u}", "{_words(n)}.")' for n, u in asked["metrics"].items()),
+    ]
+    functions = []
+    if asked["outputs"] or not lines:
+        sets = [f"        y.{n} = 0.0" for n in asked["outputs"]] or ["        y.result = p.factor * u.signal"]
+        functions += ["", "    @staticmethod", "    def output(p, u, x, y):", *sets]
+    if asked["metrics"]:
+        sets = [f"        m.{n} = 0.0" for n in asked["metrics"]]
+        functions += ["", "    @staticmethod", "    def finish(p, x, m):", *sets]
+    lines = lines or [
+        '    factor = Parameter("1", "A factor.", default=1, bounds=(-10, 10), source="definition: unchanged")',
+        '    signal = Input("1", "What comes in.")',
+        '    result = Output("1", "What goes out.")',
+    ]
+    words = sorted({"Component", *re.findall(r"= (\w+)\(", "\n".join(lines))})
+    doc = f'    """{about.rstrip(".")}; write here what yours computes, and by which paper."""'
+    head = f"from gaitsim.component import {', '.join(words)}"
+    return "\n".join([head, "", "", f"class {class_name}(Component):", doc, "", *lines, *functions, ""])
+
+
+def _words(name: str) -> str:
+    return name.replace("_", " ").capitalize()

@@ -1,0 +1,121 @@
+"""What a paper must cite that uses a model: the sources of its numbers, its components, its tools."""
+
+from __future__ import annotations
+
+import re
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from gaitsim import __version__
+from gaitsim.errors import Faults, Mark
+from gaitsim.model import Model, Number, Part
+from gaitsim.parts.bibliography import keys_of, unknown_key
+from gaitsim.parts.check import declaration_marks, parse
+
+_MUJOCO = "todorov2012"
+_OWN = f"""@software{{gaitsim,
+  author  = {{{{The gaitsim developers}}}},
+  title   = {{gaitsim: neuromuscular gait models from YAML}},
+  version = {{{__version__}}}
+}}"""
+_UNSAID = ("", "spec")
+
+
+@dataclass(frozen=True)
+class Citation:
+    """One entry of a bibliography, and what in the model it is cited for."""
+
+    key: str
+    bibtex: str
+    used_by: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Citations:
+    """Entries in the order of their keys, and sources that are words: text -> what says it."""
+
+    entries: tuple[Citation, ...]
+    words: Mapping[str, tuple[str, ...]]
+
+
+def citations(model: Model, bibliography: Mapping[str, str], algorithm: tuple[str, ...] = ()) -> Citations:
+    """What a model is made of; `algorithm` has the keys of the search that tuned it.
+
+    Errors: InvalidSpec for each source that is in no bibliography, with its place.
+    """
+    used: dict[str, list[str]] = defaultdict(list)
+    words: dict[str, list[str]] = defaultdict(list)
+    faults = Faults()
+    for number, part in _numbers(model):
+        keys = keys_of(number.source)
+        for key in keys:
+            if key in bibliography:
+                used[key].append(number.address)
+            else:
+                faults.add(unknown_key(key, set(bibliography)), _place(number, part), number.address)
+        if not keys and number.source not in _UNSAID and not number.source.startswith("definition"):
+            words[number.source].append(number.address)
+    for reference, text in _components(model).items():
+        for key in dict.fromkeys(re.findall(r"\w+", f"{reference} {text}")):
+            if key in bibliography:
+                used[key].append(reference)
+    for key in (_MUJOCO, *algorithm):
+        if key not in bibliography:
+            faults.add(unknown_key(key, set(bibliography)))
+    faults.raise_if_any()
+    used[_MUJOCO].append("mujoco")
+    for key in algorithm:
+        used[key].append("optimize")
+    entries = [Citation(key, bibliography[key], tuple(dict.fromkeys(used[key]))) for key in sorted(used)]
+    own = Citation("gaitsim", _OWN, ("gaitsim",))
+    return Citations((own, *entries), {text: tuple(places) for text, places in sorted(words.items())})
+
+
+def _numbers(model: Model) -> Iterator[tuple[Number, Part | None]]:
+    """Every number that the model depends on, once; those of parts with their part."""
+    seen: set[int] = set()
+    for index, part in _roots(model):
+        todo = [index]
+        while todo:
+            at = todo.pop()
+            if at in seen:
+                continue
+            seen.add(at)
+            number = model.numbers[at]
+            yield number, part if at == index else None
+            todo += [i for _, i in number.expression.names] if number.expression else []
+            todo += [number.fraction_of] if number.fraction_of is not None else []
+
+
+def _roots(model: Model) -> Iterator[tuple[int, Part | None]]:
+    """The numbers that parts, connections and initial values have."""
+    for part in _parts(model):
+        for index in (*part.numbers.values(), *part.constants.values()):
+            yield index, part
+        for places in part.points.values():
+            for place in places:
+                yield from ((index, part) for index in place.at)
+    for connection in model.connections:
+        yield from ((index, None) for index in (connection.delay, connection.initial) if index is not None)
+    yield from ((index, None) for index in model.initial.values())
+
+
+def _parts(model: Model) -> Iterable[Part]:
+    return (*model.parts, *((term.part for term in model.objective.all) if model.objective else ()))
+
+
+def _components(model: Model) -> dict[str, str]:
+    """The doc of each component in use by its reference; of composites and recorded curves, their names."""
+    found = {part.type.reference: part.type.doc for part in _parts(model)}
+    recorded = {series.column: series.source for part in _parts(model) for series in part.series.values()}
+    return found | recorded | {group.reference: "" for group in model.groups}
+
+
+def _place(number: Number, part: Part | None) -> Mark | None:
+    """Where the source of a number is written."""
+    if number.mark is not None or part is None:
+        return number.mark
+    component = part.type
+    marks = declaration_marks(parse(component.source, component.shown), component.shown, component.source.splitlines())
+    return marks.get(number.address.rpartition(".")[2])

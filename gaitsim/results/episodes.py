@@ -1,0 +1,111 @@
+"""Several episodes for each candidate: other seeds, pushes or slopes, each a model of its own, and one score."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping as Map
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from gaitsim.errors import Faults
+from gaitsim.model import Free, Model
+from gaitsim.optimization.combination import combined
+from gaitsim.optimization.evaluation import Verdict
+from gaitsim.parts.find import Library
+from gaitsim.results.bundle import bundle_document, bundle_library, bundle_starts
+from gaitsim.simulation.outcome import Outcome
+from gaitsim.simulation.run import Mode, Simulator
+from gaitsim.spec.document import Mapping
+from gaitsim.spec.resolve import resolve
+from gaitsim.spec.schema import optimize_section
+from gaitsim.spec.study import episodes
+
+
+@dataclass(frozen=True)
+class Episodes:
+    """The simulators of a candidate's episodes, and how their scores become one."""
+
+    simulators: tuple[Simulator, ...]
+    combine: str = "mean"
+
+    def verdict(self, x: Sequence[float]) -> Verdict:
+        """What the journal keeps of a candidate: metrics of the first episode, and each episode's score."""
+        outcomes = [simulator.run(x) for simulator in self.simulators]
+        first = outcomes[0]
+        metrics = {n: v if math.isfinite(v) else None for n, v in first.metrics.items()}
+        if len(outcomes) == 1:
+            seconds = first.simulated_seconds
+            return Verdict(first.status, first.reason, first.score, metrics, seconds, first.steps)
+        status, reason = _ended(outcomes)
+        return Verdict(
+            status,
+            reason,
+            combined([outcome.score for outcome in outcomes], self.combine),
+            metrics,
+            math.fsum(outcome.simulated_seconds for outcome in outcomes),
+            sum(outcome.steps for outcome in outcomes),
+            tuple({"status": o.status, "score": o.score, "steps": o.steps} for o in outcomes),
+        )
+
+
+def _ended(outcomes: Sequence[Outcome]) -> tuple[str, str]:
+    """How a candidate ended: as the first episode that failed, else as the first that was stopped."""
+    for status in ("failed", "stopped"):
+        for i, outcome in enumerate(outcomes, start=1):
+            if outcome.status == status:
+                return status, f"episode {i}: {outcome.reason}"
+    return outcomes[0].status, ""
+
+
+def bundle_episodes(folder: Path, name: str, mode: Mode) -> Episodes:
+    """The episodes of a bundle. Errors: OSError, InvalidSpec, InvalidComponent."""
+    document, starts = bundle_document(folder), bundle_starts(folder)
+    models = [model.started_at(starts) for model in episode_models(document, bundle_library(folder), name)]
+    return Episodes(tuple(Simulator(model, mode) for model in models), optimize_section(document).combine)
+
+
+def episode_models(document: Mapping, library: Library, name: str) -> list[Model]:
+    """The model of each episode; of the spec as it is, if it has none.
+
+    Errors: InvalidSpec, also for an episode that changes what is tuned.
+    """
+    rows = episodes(document)
+    models = [resolve(row.document, library, name) for row in rows]
+    if not rows[0].settings and len(rows) == 1:
+        return models
+    faults, tuned = Faults(), resolve(document, library, name).free
+    for i, (row, model) in enumerate(zip(rows, models, strict=True)):
+        change = _change(tuned, model.free)
+        if change:
+            rule = f"this episode {change}; an episode sets numbers that no search changes."
+            faults.add(rule, row.mark, f"optimize.episodes.{i}")
+    faults.raise_if_any()
+    return models
+
+
+def _change(before: Sequence[Free], after: Sequence[Free]) -> str:
+    """How what is tuned differs, in words; empty if it is the same."""
+    old, new = ({f.address: (f.low, f.high, f.start, f.spread) for f in free} for free in (before, after))
+    lost, more = [a for a in old if a not in new], [a for a in new if a not in old]
+    if lost:
+        return f"takes {', '.join(lost)} from what is tuned"
+    if more:
+        return f"adds {', '.join(more)} to what is tuned"
+    moved = [address for address in old if old[address] != new[address]]
+    return f"moves the bounds or the start of {', '.join(moved)}" if moved or [*old] != [*new] else ""
+
+
+def first_episode(document: Mapping, verdict: Map[str, Any]) -> tuple[Mapping, dict[str, Any], str]:
+    """The spec of a search's first episode, what it says of that one, and words that tell of the others."""
+    rows, found = episodes(document), verdict["episodes"]
+    if not rows[0].settings:
+        return document, dict(verdict), ""
+    told = f", episode 1 of {len(rows)}: {', '.join(f'{a} = {v}' for a, v in rows[0].settings.items())}"
+    if not found:
+        return rows[0].document, dict(verdict), told
+    scores = ", ".join("failed" if one["score"] is None else f"{one['score']:.5g}" for one in found)
+    how = optimize_section(document).combine
+    told += f" (the episodes' scores are {scores}; the candidate's is their {how}); for another one, --set its values"
+    return rows[0].document, dict(verdict) | found[0], told

@@ -1,0 +1,53 @@
+"""The runs of a result: one, or one for each row of a study."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping as Map
+from pathlib import Path
+from typing import Any
+
+from gaitsim.errors import Fault, Mark, Usage
+from gaitsim.results.manifest import BadResult
+
+COMPARED = ("status", "score", "metrics", "steps")  # what makes two runs the same
+
+
+def read_rows(folder: Path) -> list[dict[str, Any]]:
+    """The runs of a result. Errors: BadResult."""
+    path = folder / "evaluations.jsonl"
+    rows: list[dict[str, Any]] = []
+    try:
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+            row = json.loads(line)
+            if not all(isinstance(row[name], dict) for name in ("settings", "metrics")) or not {*COMPARED} <= {*row}:
+                raise ValueError(f"line {number} is no run")
+            rows.append(row)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise BadResult(Fault(f"this cannot be read ({error}); restore it from a copy.", Mark(str(path)))) from error
+    return rows
+
+
+def pick_row(folder: Path, which: str) -> int:
+    """The place, from 0, of the run that `best` or its number, from 1, names.
+
+    Best is the lowest score; without scores the first run that did not fail, or else the first.
+    Errors: BadResult, Usage for a word that names none.
+    """
+    rows = read_rows(folder)
+    if not rows:
+        raise BadResult(f"{folder}: it holds no run; make it anew with gaitsim run.")
+    if which == "best":
+        scored = [i for i, row in enumerate(rows) if row["score"] is not None]
+        if scored:
+            return min(scored, key=lambda i: float(rows[i]["score"]))
+        return next((i for i, row in enumerate(rows) if row["status"] != "failed"), 0)
+    if not (which.isdecimal() and 1 <= int(which) <= len(rows)):
+        rule = f"{folder} has the runs 1 to {len(rows)}" if len(rows) > 1 else f"{folder} holds one run"
+        raise Usage(f"--candidate {which}: {rule}; write best, or the number of one.")
+    return int(which) - 1
+
+
+def row_words(row: Map[str, Any]) -> str:
+    """What was set in a run: gain = 2, ...; empty if nothing."""
+    return ", ".join(f"{address} = {value}" for address, value in row["settings"].items())

@@ -1,0 +1,43 @@
+"""Initial poses that stand: the lowest place that the ground carries is put on the ground."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from gaitsim.compiler.ground import GROUND
+from gaitsim.compiler.places import Touching
+from gaitsim.errors import SimulationFailed
+
+_ABOVE = 100.0  # m: from where one looks down for the ground
+
+
+def stand(model: Any, data: Any, lift: int, touching: tuple[Touching, ...]) -> None:
+    """Move a vertical coordinate until the lowest of the places just touches.
+
+    Errors: SimulationFailed if there is no place, or no ground below one.
+    """
+    mujoco.mj_kinematics(model, data)
+    gaps = [_gap(model, data, place) for place in touching]
+    if not gaps or not np.all(np.isfinite(gaps)):
+        rule = "the initial pose cannot stand: no part of it touches the ground"
+        raise SimulationFailed(f"{rule}; add a contact, or set the height in initial:")
+    data.qpos[lift] -= min(gaps)
+
+
+def _gap(model: Any, data: Any, place: Touching) -> float:
+    """By how much a place would have to sink to touch the ground below it, in m."""
+    body = model.body(place.body).id
+    center = data.xpos[body] + data.xmat[body].reshape(3, 3) @ np.array(place.position)
+    above = center + [0.0, 0.0, _ABOVE]
+    down = np.array([0.0, 0.0, -1.0])
+    gaps = []
+    for g in (g for g in range(model.ngeom) if model.geom(g).name.startswith(GROUND)):
+        turn = data.geom_xmat[g]
+        depth = mujoco.mju_rayGeom(data.geom_xpos[g], turn, model.geom_size[g], above, down, model.geom_type[g])
+        if depth >= 0:
+            # On a slope a sphere is next to the ground beside its lowest point: r / cos, not r.
+            gaps.append(depth - _ABOVE - place.radius / turn[8])
+    return float(min(gaps)) if gaps else float("nan")

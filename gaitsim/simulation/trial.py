@@ -1,0 +1,87 @@
+"""One component on plain numbers, without a model around it: in native code or as Python."""
+
+from __future__ import annotations
+
+import ctypes
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from gaitsim.compiler.kernel import OUTPUT, START, UPDATE, address_of
+from gaitsim.compiler.program import Floats
+from gaitsim.errors import did_you_mean
+from gaitsim.parts.load import function_of
+from gaitsim.parts.primitive import Primitive
+from gaitsim.simulation.run import Mode
+from gaitsim.simulation.view import View
+from gaitsim.units import parse_unit
+
+_STAGES = {"start": START, "output": OUTPUT, "update": UPDATE}
+_C_FUNCTION = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_double)
+
+
+class Trial:
+    """The p, u, x, y of one component, at their defaults and otherwise zero; all numbers in SI."""
+
+    def __init__(self, kind: Primitive) -> None:
+        self.kind = kind
+        homes: list[Mapping[str, Any]] = [kind.parameters | kind.series, kind.inputs, kind.states, kind.outputs]
+        self.homes = homes
+        self.arrays: list[Floats] = []
+        self.views: list[View] = []
+        for declared in homes:
+            places: dict[str, int | slice] = {}
+            end = 0
+            for name, one in declared.items():
+                size = getattr(one, "size", None)
+                places[name] = end if size is None else slice(end, end + size)
+                end += size or 1
+            table = np.zeros(max(end, 1))
+            self.arrays.append(table)
+            self.views.append(View(table, places))
+        self.p, self.u, self.x, self.y = self.views
+        for declared, view in zip(homes[:2], self.views, strict=False):
+            for name, one in declared.items():
+                if getattr(one, "default", None) is not None:
+                    setattr(view, name, one.default * parse_unit(one.unit).factor)
+
+    def put(self, values: Mapping[str, Any]) -> Trial:
+        """Set parameters, inputs and states by name, and outputs that MuJoCo would set.
+
+        Errors: KeyError for a name that is not declared.
+        """
+        for name, value in values.items():
+            view = next((v for home, v in zip(self.homes, self.views, strict=True) if name in home), None)
+            if view is None:
+                known = [known for home in self.homes for known in home]
+                raise KeyError(f"{self.kind.reference} declares no {name}. {did_you_mean(name, known)}")
+            setattr(view, name, value)
+        return self
+
+    def copy(self) -> Trial:
+        """The same numbers in tables of their own."""
+        made = Trial(self.kind)
+        for mine, theirs in zip(made.arrays, self.arrays, strict=True):
+            mine[:] = theirs
+        return made
+
+    def call(self, stage: str, mode: Mode = "rapid", dt: float = 1e-3) -> bool:
+        """Run start, output or update in place; whether it raised."""
+        if mode == "rapid":
+            kernel = _C_FUNCTION(address_of(self.kind))
+            pointers = [table.ctypes.data for table in self.arrays]
+            return bool(kernel(_STAGES[stage], *pointers, dt))
+        p, u, x, y = self.views
+        arguments = {"start": (p, u, x), "output": (p, u, x, y), "update": (p, u, x, y, dt)}[stage]
+        try:
+            with np.errstate(all="ignore"):
+                function_of(self.kind.cls, stage)(*arguments)
+        except Exception:
+            return True
+        return False
+
+    @property
+    def stages(self) -> list[str]:
+        """Which of start, output and update the component has."""
+        return [stage for stage in _STAGES if stage in self.kind.functions]

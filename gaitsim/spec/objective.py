@@ -1,0 +1,87 @@
+"""The objective of a spec: a part whose inputs read metrics, and its terms, each an objective of its own."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping as Map
+
+from gaitsim.errors import Mark, did_you_mean
+from gaitsim.model import TERMS, Objective
+from gaitsim.spec.connect import Wiring
+from gaitsim.spec.document import Mapping, Node
+from gaitsim.spec.expand import Expansion
+from gaitsim.spec.inheritance import without
+from gaitsim.spec.quantity import measured, said
+from gaitsim.spec.scope import Scope
+from gaitsim.units import parse_unit
+
+
+def read_objective(
+    section: Mapping, mark: Mark, expansion: Expansion, units: Map[str, str], scope: Scope, address: str = "objective"
+) -> Objective | None:
+    """The objective of a section whose key stands at `mark`; `units` has every metric. None after a fault."""
+    faults = expansion.faults
+    alone = Expansion(expansion.library, faults, expansion.use_for, expansion.table, broken=expansion.broken)
+    above, _, name = address.rpartition(".")
+    inner = Scope(above, above, scope.file, scope.names, children={n: n for n in scope.children})
+    alone.lone_entry(name, without(section, TERMS), mark, inner)
+    if not alone.parts:
+        return None
+    part = alone.parts[0]
+    if len(alone.parts) > 1 or "cost" not in part.type.outputs:
+        references = ", ".join(expansion.library.references("objective"))
+        rule = f"an objective gives one output, cost; use one of {references}."
+        faults.add(rule, section.entries["use"].mark, address)
+        return None
+    metrics = _metrics(alone, address, units)
+    part = Wiring(alone).completed(part)
+    for name, declared in part.type.inputs.items():
+        given = name in metrics or name in part.constants or f"{address}.{name}" in alone.ports.tried
+        if not given and declared.default is None and not declared.sums:
+            metric = next(iter(units), "metric")
+            rule = f"needs {name} ({declared.doc.rstrip('.')}); write {name}: {{from: {metric}}}."
+            faults.add(rule, part.mark, address)
+    given_terms = section.entries.get(TERMS)
+    if given_terms is None:
+        return Objective(part, metrics)
+    if not (TERMS in part.type.inputs and part.type.inputs[TERMS].sums):
+        rule = f"{part.type.reference} has no terms; use objective/weighted_sum, which adds them."
+        faults.add(rule, section.keys[TERMS], address)
+        return None
+    return Objective(part, metrics, _terms(given_terms, expansion, units, scope, f"{address}.{TERMS}"))
+
+
+def _terms(node: Node, expansion: Expansion, units: Map[str, str], scope: Scope, address: str) -> tuple[Objective, ...]:
+    """Objectives by name, whose costs are added."""
+    if not isinstance(node, Mapping):
+        sample = "{effort: {use: objective/minimize, value: {from: effort}}}"
+        expansion.faults.add(f"{said(node)} is no mapping of names; write such as terms: {sample}.", node.mark, address)
+        return ()
+    found = []
+    for name, term in node.entries.items():
+        if not isinstance(term, Mapping):
+            rule = "a term is a mapping that begins with use:, such as {use: objective/minimize, ...}."
+            expansion.faults.add(rule, node.keys[name], f"{address}.{name}")
+            continue
+        made = read_objective(term, node.keys[name], expansion, units, scope, f"{address}.{name}")
+        if made is not None:
+            found.append(made)
+    return tuple(found)
+
+
+def _metrics(alone: Expansion, address: str, units: Map[str, str]) -> dict[str, str]:
+    """What the inputs read: metrics of the run, in units that fit."""
+    metrics = {}
+    for wire in alone.wires:
+        name = wire.target.removeprefix(f"{address}.")
+        if wire.source not in units:
+            if not alone.is_broken(wire.source):
+                hint = did_you_mean(wire.source, units)
+                alone.faults.add(f"{wire.source} is no metric. {hint}", wire.mark, wire.target)
+            continue
+        given, asked = units[wire.source], alone.parts[0].type.inputs[name].unit
+        if "*" not in (given, asked) and parse_unit(given).dimension != parse_unit(asked).dimension:
+            words = f"{wire.source} is {measured(parse_unit(given))} [{given}]"
+            rule = f"{name} takes {measured(parse_unit(asked))} [{asked}]; choose another metric."
+            alone.faults.add(f"{words} but {rule}", wire.mark, wire.target)
+        metrics[name] = wire.source
+    return metrics

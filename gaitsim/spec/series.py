@@ -1,0 +1,55 @@
+"""Recorded curves in a spec: `curve: norms/fukuchi2018_walking.knee_flexion`, or a list of numbers."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gaitsim.component import Series
+from gaitsim.errors import Faults, GaitsimError
+from gaitsim.model import Recording
+from gaitsim.parts.find import Library, at
+from gaitsim.parts.table import resampled
+from gaitsim.spec.document import Node, Scalar, Sequence
+from gaitsim.spec.quantity import example, measured, number
+from gaitsim.units import parse_unit
+
+SAMPLE = "norms/fukuchi2018_walking.knee_flexion"
+
+
+def read_series(
+    name: str, declared: Series, node: Node, library: Library, faults: Faults, address: str
+) -> Recording | None:
+    """The numbers of a series in SI, `declared.size` of them at equal distances; None after a fault."""
+    if isinstance(node, Sequence):
+        before = len(faults.found)
+        values = [number(item, declared.unit, faults, f"{address}.{i}") for i, item in enumerate(node.items)]
+        if len(values) < 2:
+            faults.add("a curve has two numbers or more, at equal distances.", node.mark, address)
+        given = [v for v in values if v is not None]
+        if len(faults.found) > before:
+            return None
+        return Recording(resampled(np.linspace(0, 1, len(given)), np.array(given), declared.size))
+    text = node.value if isinstance(node, Scalar) else None
+    if not isinstance(text, str) or "/" not in text:
+        one = example("1" if declared.unit == "*" else declared.unit)
+        rule = f"{name} is a recorded curve; write a column of a table, such as {SAMPLE}"
+        faults.add(f"{rule}, or a list such as [{one}, {one}].", node.mark, address)
+        return None
+    reference, _, column = text.partition(".")
+    try:
+        table = library.table(reference)
+    except GaitsimError as error:
+        for fault in at(node.mark, address, error):
+            faults.add(fault.message, fault.mark, fault.address)
+        return None
+    if column not in table.columns:
+        said = f"{reference} has no column {column}" if column else f"{text} names no column"
+        faults.add(f"{said}; choose {', '.join(f'{reference}.{c}' for c in table.columns)}.", node.mark, address)
+        return None
+    given_unit = table.units[column]
+    if declared.unit != "*" and parse_unit(given_unit).dimension != parse_unit(declared.unit).dimension:
+        words = f"{text} is {measured(parse_unit(given_unit))} [{given_unit}]"
+        rule = f"{name} takes {measured(parse_unit(declared.unit))} [{declared.unit}]; choose another column."
+        faults.add(f"{words} but {rule}", node.mark, address)
+        return None
+    return Recording(resampled(table.over, table.columns[column], declared.size), text, table.recorded_by)

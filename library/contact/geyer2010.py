@@ -1,0 +1,168 @@
+from gaitsim.component import Attachment, Component, Curve, Input, Output, Parameter, Part, State, StepLimit
+
+
+class Geyer2010(Component):
+    """The ground of Geyer & Herr (2010): a nonlinear spring-damper with stiction and sliding, under one point.
+
+    Normal: F = k d (1 + d' / v), never pulling, with k = weight / 1 cm. Stiction: from where the point
+    touched down or came to rest, F = -k_x dx (1 + sgn(dx) x' / v_x), with k_x = weight / 10 cm, until it
+    exceeds 0.9 of the normal force; then sliding with 0.8 of it, until the point is slower than 1 cm/s.
+
+    On a light foot this is a damper first of all: 26 kN s/m at 1 cm. An explicit step of 1 ms then adds energy, so
+    its velocity terms are solved for the velocity at the end of the step. The forces that go out are
+    those that acted in the step before.
+    """
+
+    frame = Attachment("The point that touches the ground.")
+    sinking = Parameter(
+        "m",
+        "How deep the weight of all presses one point: k = weight / this.",
+        default=0.01,
+        bounds=(1e-5, 1),
+        source="geyer2010",
+    )
+    release_velocity = Parameter(
+        "m/s",
+        "v: at this velocity out of the ground the normal force vanishes.",
+        default=0.03,
+        bounds=(1e-4, 100),
+        source="geyer2010",
+    )
+    shear = Parameter(
+        "m",
+        "How far the weight of all would shift one point: k_x = weight / this.",
+        default=0.1,
+        bounds=(1e-5, 10),
+        source="geyer2010",
+    )
+    shear_velocity = Parameter(
+        "m/s", "v_x.", default=0.03, bounds=(1e-4, 100), source="geyer2010"
+    )
+    static_friction = Parameter(
+        "1", "Friction at which a point slips, in normal forces.", default=0.9, bounds=(0, 10), source="geyer2010"
+    )
+    sliding_friction = Parameter(
+        "1", "Friction of a point that slides, in normal forces.", default=0.8, bounds=(0, 10), source="geyer2010"
+    )
+    sticking_velocity = Parameter(
+        "m/s", "Below this a point that slides sticks again.", default=0.01, bounds=(1e-5, 10), source="geyer2010"
+    )
+    terrain = Part(
+        "terrain",
+        "The ground.",
+        default="terrain/flat",
+        reads=(("ground_height", "height"),),
+        sends=(("position", "position"),),
+    )
+    ground_height = Input("m", "Height of the ground where the point is.", default=0)
+    touching = State(levels=("no", "yes"), doc="Whether the point was in the ground one step ago.")
+    mode = State(levels=("sliding", "sticking"), doc="How the ground held the point one step ago.")
+    held_at = State("m", "Where the point sticks.")
+    stepped = State(levels=("no", "yes"), doc="Whether there is a step before.")
+    spring_before = State("N", "Normal force without velocity, one step ago.")
+    shear_before = State("N", "Shear force without velocity, one step ago.")
+    drag_before = State("N s/m", "Damping along the ground, one step ago.")
+    position = Output("m", "Where the point is along the ground.")
+    slip_velocity = Output("m/s", "Its rate.")
+    height = Output("m", "Height of the point.")
+    velocity = Output("m/s", "Upward velocity of the point.")
+    weight = Output("N", "Weight of all that moves.")
+    force = Output("N", "Force of the ground on the point, along the ground's normal; one step old.")
+    friction_force = Output("N", "Force of the ground on the point, forwards along the ground; one step old.")
+    load = Output("1", "Force in weights of all that moves; one step old.")
+    in_contact = Output("1", "1 while the point is below the ground's surface, else 0.")
+    sticks = Output("1", "1 while the ground holds the point in one place, else 0.")
+    anchor = Output("m", "Where it holds it.")
+    spring = Output("N", "Normal force without velocity.")
+    shear_spring = Output("N", "Shear force without velocity.")
+    drag = Output("N s/m", "Damping along the ground.")
+    energy = Output("J", "Elastic energy in the ground, k d^2 / 2 + k_x dx^2 / 2.")
+
+    largest_step = StepLimit(
+        "ms",
+        "80 kg on the 1.25 kg foot of the paper landing on its heel at 0.5 m/s: peak force within 4 %, energy lost "
+        "within 0.1 % of those at 0.02 ms. With integrator: euler the limit is 0.02 ms.",
+        1,
+    )
+
+    pressing = Curve(
+        "force",
+        "height",
+        (-0.02, 0.005),
+        "Normal force over height, 80 kg.",
+        at={"weight": 785},
+        each=("velocity", (-0.03, 0, 0.015)),
+    )
+    moving = Curve(
+        "force",
+        "velocity",
+        (-0.1, 0.06),
+        "Normal force over velocity, 80 kg.",
+        at={"weight": 785},
+        each=("height", (-0.005, -0.01)),
+    )
+    sticking = Curve(
+        "shear_spring",
+        "position",
+        (-0.08, 0.08),
+        "Stiction at rest over the shift from where it touched down, 80 kg.",
+        at={"weight": 785, "height": -0.01, "touching": 1, "mode": 1, "held_at": 0},
+    )
+
+    @staticmethod
+    def output(p, u, x, y):
+        depth = max(0.0, u.ground_height - y.height)
+        y.in_contact = 1.0 if depth > 0 else 0.0
+        y.spring = y.weight / p.sinking * depth
+        spring = x.spring_before if x.stepped == 1 else y.spring
+        y.force = spring * max(0.0, 1 - y.velocity / p.release_velocity)
+        y.friction_force = x.shear_before - x.drag_before * y.slip_velocity
+        y.load = y.force / y.weight if y.weight > 0 else 0.0
+
+        y.sticks, y.anchor = 1.0, y.position
+        if x.touching == 1 and x.mode == 1:
+            y.anchor = x.held_at
+            y.sticks = 1.0 if abs(y.friction_force) <= p.static_friction * y.force else 0.0
+        elif x.touching == 1:
+            y.sticks = 1.0 if abs(y.slip_velocity) < p.sticking_velocity else 0.0
+
+        stiffness = y.weight / p.shear
+        shift = y.position - y.anchor if y.sticks == 1 else 0.0
+        y.shear_spring, y.drag = 0.0, 0.0
+        if y.in_contact == 1 and y.sticks == 1:
+            y.shear_spring = -stiffness * shift
+            y.drag = stiffness * abs(shift) / p.shear_velocity
+        elif y.in_contact == 1:
+            # Coulomb's force as a damper, which at the end of the step can brake but not reverse.
+            y.drag = p.sliding_friction * y.force / max(abs(y.slip_velocity), p.sticking_velocity)
+        y.energy = 0.5 * (y.spring * depth + stiffness * shift**2 * y.in_contact)
+
+    @staticmethod
+    def update(p, u, x, y, dt):
+        x.stepped = 1
+        x.touching, x.mode, x.held_at = y.in_contact, y.sticks, y.anchor
+        x.spring_before, x.shear_before, x.drag_before = y.spring, y.shear_spring, y.drag
+
+    @staticmethod
+    def build(p, mj):
+        point = mj.attached("frame")
+        normal = mj.push(
+            point,
+            axis=(0, 0, 1),
+            suffix="normal",
+            surface="terrain",
+            gain=(1, -1 / p.release_velocity),
+            limits=(0, 1e9),
+        )
+        along = mj.push(point, axis=(1, 0, 0), suffix="along", surface="terrain")
+        brake = mj.push(point, axis=(1, 0, 0), suffix="brake", surface="terrain", gain=(0, -1))
+        mj.read("position", along, "actuator_length")
+        mj.read("slip_velocity", along, "actuator_velocity")
+        mj.read("height", normal, "actuator_length")
+        mj.read("velocity", normal, "actuator_velocity")
+        mj.touches(point)
+        mj.read_weight("weight")
+        mj.apply("spring", normal, "ctrl")
+        mj.apply("shear_spring", along, "ctrl")
+        mj.apply("drag", brake, "ctrl")
+        mj.draw_force(point, up="force", forward="friction_force", surface="terrain")

@@ -1,0 +1,51 @@
+from gaitsim.component import Component, Curve, Input, Output, Parameter
+
+
+class VelocityReflex(Component):
+    """Stimulation from a muscle's delayed fiber velocity: S = S_0 + G (v - v_off), clamped and gated.
+
+    A stretch reflex has G > 0 and lower = 0: only lengthening excites. A gain per l_opt/s becomes
+    one per v_max when multiplied by v_max in l_opt/s.
+    """
+
+    gain = Parameter("1", "G: stimulation per v_max; negative inhibits.", bounds=(-100, 100))
+    offset = Parameter(
+        "1",
+        "v_off: velocity without effect, in v_max.",
+        default=0,
+        bounds=(-10, 10),
+        source="definition: a fiber at rest",
+    )
+    bias = Parameter(
+        "1",
+        "S_0: stimulation at v_off.",
+        default=0,
+        bounds=(-1, 1),
+        source="definition: added to another reflex, which has S_0",
+    )
+    lower = Parameter(
+        "1",
+        "Least stimulation before the gate.",
+        default=-1e6,
+        bounds=(-1e6, 1e6),
+        source="definition: unclamped; the muscle clips the sum",
+    )
+    upper = Parameter(
+        "1",
+        "Largest stimulation before the gate.",
+        default=1e6,
+        bounds=(-1e6, 1e6),
+        source="definition: unclamped; the muscle clips the sum",
+    )
+    signal = Input("1", "Normalized fiber velocity of a muscle, in v_max; shortening is negative.")
+    gate = Input("1", "1 lets the reflex through, 0 leaves nothing, not even S_0.", default=1)
+    stimulation = Output("1", "Contribution to the muscle's excitation.")
+
+    answer = Curve(
+        "stimulation", "signal", (-1, 1), "A stretch reflex: lengthening excites.", at={"gain": 1, "lower": 0}
+    )
+
+    @staticmethod
+    def output(p, u, x, y):
+        wanted = p.bias + p.gain * (u.signal - p.offset)
+        y.stimulation = u.gate * max(p.lower, min(p.upper, wanted))

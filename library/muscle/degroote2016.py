@@ -1,0 +1,251 @@
+import math
+
+from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, State, StepLimit
+
+LEAST, MOST = math.exp(0.2 * 4 / 0.6), math.exp(1.6 * 4 / 0.6)  # passive elasticity at its ends
+
+
+def active_force(length):
+    """f_l: three Gaussians whose width grows with the length."""
+    first = (length - 1.0550334286) / (0.1623845736 + 0.0633034485 * length)
+    second = (length - 0.7167754134) / (-0.0299471170 + 0.2003568473 * length)
+    third = (length - 1) / 0.3535533906
+    return (
+        0.8150671134 * math.exp(-0.5 * first * first)
+        + 0.4330049844 * math.exp(-0.5 * second * second)
+        + 0.1 * math.exp(-0.5 * third * third)
+    )
+
+
+def force_velocity(velocity):
+    """f_v = d_1 asinh(d_2 v + d_3) + d_4, v in v_max."""
+    return -0.3211346128 * math.asinh(-8.149 * velocity - 0.374) + 0.8825327733
+
+
+def passive_force(length):
+    """f_PE: exponential, 0 at 0.2 and 1 at 1.6 optimal lengths."""
+    return max(0.0, math.exp(length * 4 / 0.6) - LEAST) / (MOST - LEAST)
+
+
+def passive_energy(length):
+    """Integral of f_PE over the length."""
+    long = max(0.2, length)
+    return (0.15 * (math.exp(long * 4 / 0.6) - LEAST) - LEAST * (long - 0.2)) / (MOST - LEAST)
+
+
+SLOWEST, FASTEST = force_velocity(-1), force_velocity(1)
+
+
+def velocity_from_force(ratio):
+    """Inverse of f_v. Beyond v_max it goes on with slope 0.01, as numbers need and nature does not."""
+    inside = min(FASTEST, max(SLOWEST, ratio))
+    return (math.sinh((inside - 0.8825327733) / -0.3211346128) + 0.374) / -8.149 + 0.01 * (ratio - inside)
+
+
+def tendon_stiffness(strain_at_max):
+    """k_T of f_T = 0.2 exp(k_T (l_T - 1)) - 0.2, which is 1 at the strain given."""
+    return math.log(6) / strain_at_max
+
+
+def tendon_force(strain, stiffness):
+    """f_T: exponential; unlike the published one it does not push where it is slack."""
+    return 0.2 * (math.exp(stiffness * max(0.0, strain)) - 1)
+
+
+def force_and_slope(velocity):
+    """f_v and its slope, the whole of which `velocity_from_force` inverts."""
+    inside = min(1.0, max(-1.0, velocity))
+    root = -8.149 * inside - 0.374
+    slope = 0.3211346128 * 8.149 / math.sqrt(root * root + 1) if velocity == inside else 100.0
+    return force_velocity(inside) + 100 * (velocity - inside), slope
+
+
+def velocity_after(velocity, strain, loss, stiffness, cosine, beside, strength):
+    """Velocity at which the balance holds if the tendon has `strain` - `loss` v."""
+    for _ in range(20):
+        pull = tendon_force(strain - loss * velocity, stiffness)
+        yielding = stiffness * (pull + 0.2) * loss if pull > 0 else 0.0
+        force, slope = force_and_slope(velocity)
+        step = (pull / cosine - beside - strength * force) / (yielding / cosine + strength * slope)
+        after = velocity + step
+        # f_v bends at -1 and at 1: a step ends there first.
+        if (velocity + 1) * (after + 1) < 0:
+            after = -1.0
+        elif (velocity - 1) * (after - 1) < 0:
+            after = 1.0
+        velocity = after
+        if abs(step) < 1e-7:
+            break
+    return velocity
+
+
+def look_ahead(stiffness):
+    """Where within a step the balance holds: half way if it changes slowly, at the end the faster it does."""
+    return (3 + stiffness) / (6 + stiffness)
+
+
+class DeGroote2016(Component):
+    """Hill-type muscle-tendon unit with an elastic tendon, a pennate fiber and smooth curves (De Groote et al. 2016).
+
+    F_max (A f_l f_v + f_PE) cos(alpha) = F_max f_T, where l sin(alpha) is constant. It starts in
+    equilibrium, at rest.
+    """
+
+    max_isometric_force = Parameter("N", "F_max.", bounds=(1, 1e6))
+    optimal_fiber_length = Parameter("m", "l_opt.", bounds=(1e-3, 1))
+    tendon_slack_length = Parameter("m", "l_slack.", bounds=(1e-3, 2))
+    max_contraction_velocity = Parameter(
+        "1/s", "v_max in optimal fiber lengths per second.", default=10, bounds=(1, 50), source="degroote2016"
+    )
+    pennation_angle = Parameter(
+        "rad",
+        "alpha at the optimal length.",
+        default=0,
+        bounds=(0, 1.4),
+        source="definition: fibers along the tendon",
+    )
+    tendon_strain = Parameter(
+        "1", "Strain of the tendon at F_max.", default=0.049, bounds=(1e-3, 1), source="dembia2020: OpenSim's model"
+    )
+    min_fiber_length = Parameter(
+        "1", "Floor of the fiber in optimal lengths.", default=0.2, bounds=(0.01, 0.9), source="degroote2016: f_PE"
+    )
+
+    largest_step = StepLimit(
+        "ms",
+        "Force within 2 % of F_max of that at 5 us at every instant: an isometric contraction and relaxation, "
+        "stretches and releases at half v_max at A = 0.01 and 0.5, 0.3 F_max lifted; soleus, vasti, hip flexors.",
+        0.5,
+    )
+
+    path = Part(
+        "path",
+        "Geometry from origin to insertion.",
+        reads=(("path_length", "length"), ("path_velocity", "velocity")),
+        sends=(("tension", "force"),),
+        gives=(("reference_length", "optimal_fiber_length * cos(pennation_angle) + tendon_slack_length"),),
+    )
+    activation_dynamics = Part(
+        "activation",
+        "From excitation to activation.",
+        default="activation/degroote2016",
+        reads=(("activation_level", "activation"),),
+        sends=(("excitation", "excitation"),),
+    )
+    metabolics = Part(
+        "metabolics",
+        "Metabolic power; a spec that wants it says which.",
+        optional=True,
+        sends=(
+            ("excitation", "excitation"),
+            ("activation", "activation"),
+            ("normalized_isometric_force", "normalized_isometric_force"),
+            ("normalized_fiber_length", "normalized_fiber_length"),
+            ("fiber_velocity", "fiber_velocity"),
+            ("fiber_force", "fiber_force"),
+            ("force", "force"),
+        ),
+        gives=(
+            ("max_isometric_force", "max_isometric_force"),
+            ("optimal_fiber_length", "optimal_fiber_length"),
+            ("max_contraction_velocity", "max_contraction_velocity"),
+        ),
+    )
+    excitation = Input("1", "Sum of all stimulations.", sums=True)
+    activation_level = Input("1", "Activation.")
+    path_length = Input("m", "Length of the whole muscle-tendon unit.")
+    path_velocity = Input("m/s", "Its lengthening velocity.")
+
+    length = State("m", "Length of the fiber.")
+    activation_before = State("1", "Activation one step ago.")
+
+    force = Output("N", "Force of the muscle-tendon unit.")
+    normalized_force = Output("1", "Force in F_max.")
+    activation = Output("1", "Activation A.")
+    fiber_length = Output("m", "Length of the fiber.")
+    normalized_fiber_length = Output("1", "Length of the fiber in optimal lengths.")
+    fiber_velocity = Output("m/s", "Velocity of the fiber, shortening negative.")
+    normalized_fiber_velocity = Output("1", "Velocity of the fiber in v_max.")
+    fiber_force = Output("N", "Active force of the fiber, A F_max f_l f_v, along the fiber.")
+    normalized_isometric_force = Output("1", "f_l: active force in F_max, at rest and full activation.")
+    pennation = Output("rad", "alpha.")
+    tendon_strain_now = Output("1", "Strain of the tendon; 0 while it is slack.")
+    elastic_energy = Output("J", "Elastic energy in the tendon and the parallel element.")
+
+    active_curve = Curve(of="active_force", over="length", span=(0.2, 1.8), doc="f_l over the length in l_opt.")
+    velocity_curve = Curve(of="force_velocity", over="velocity", span=(-1, 1), doc="f_v over the velocity in v_max.")
+    passive_curve = Curve(of="passive_force", over="length", span=(0.2, 1.8), doc="f_PE over the length in l_opt.")
+    tendon_curve = Curve(
+        of="tendon_force", over="strain", span=(-0.01, 0.06), doc="f_T over the strain.", at={"stiffness": 36.5665}
+    )
+
+    @staticmethod
+    def start(p, u, x):
+        # At rest, the longer the fiber, the less the tendon and the more it pulls back: one root.
+        width = p.optimal_fiber_length * math.sin(p.pennation_angle)
+        stiffness = tendon_stiffness(p.tendon_strain)
+        low, high = p.min_fiber_length * p.optimal_fiber_length, max(u.path_length, p.optimal_fiber_length)
+        for _ in range(60):
+            middle = 0.5 * (low + high)
+            along = math.sqrt(max(0.0, middle * middle - width * width))
+            strain = (u.path_length - along - p.tendon_slack_length) / p.tendon_slack_length
+            normalized = middle / p.optimal_fiber_length
+            fiber = u.activation_level * active_force(normalized) + passive_force(normalized)
+            if tendon_force(strain, stiffness) * middle > fiber * along:
+                low = middle
+            else:
+                high = middle
+        x.length = 0.5 * (low + high)
+        x.activation_before = u.activation_level
+
+    @staticmethod
+    def output(p, u, x, y):
+        length = x.length / p.optimal_fiber_length
+        sine = min(p.optimal_fiber_length * math.sin(p.pennation_angle) / x.length, 1.0)
+        cosine = math.sqrt(1 - sine * sine)
+        strain = max(0.0, (u.path_length - x.length * cosine - p.tendon_slack_length) / p.tendon_slack_length)
+        stiffness = tendon_stiffness(p.tendon_strain)
+        y.activation = u.activation_level
+        y.fiber_length = x.length
+        y.normalized_fiber_length = length
+        y.pennation = math.asin(sine)
+        y.tendon_strain_now = strain
+        y.normalized_force = tendon_force(strain, stiffness)
+        y.force = p.max_isometric_force * y.normalized_force
+        in_tendon = p.tendon_slack_length * (y.normalized_force / stiffness - 0.2 * strain)
+        in_fiber = p.optimal_fiber_length * passive_energy(length)
+        y.elastic_energy = p.max_isometric_force * (in_tendon + in_fiber)
+        y.normalized_isometric_force = active_force(length)
+        driving = y.normalized_force / cosine - passive_force(length)
+        y.fiber_force = p.max_isometric_force * max(0.0, driving)
+        ratio = driving / (u.activation_level * y.normalized_isometric_force)
+        y.normalized_fiber_velocity = velocity_from_force(ratio)
+        y.fiber_velocity = y.normalized_fiber_velocity * p.max_contraction_velocity * p.optimal_fiber_length
+
+    @staticmethod
+    def update(p, u, x, y, dt):
+        # A fiber that yields, at low activation, follows its tendon in less than a step; hence the balance
+        # is that of a moment within the step, with the path and the activation going on as they do.
+        cosine, stiffness = math.cos(y.pennation), tendon_stiffness(p.tendon_strain)
+        v_max = p.max_contraction_velocity * p.optimal_fiber_length
+        slope = force_and_slope(min(1.0, max(-1.0, y.normalized_fiber_velocity)))[1]
+        strength = y.normalized_isometric_force * u.activation_level
+        loss = v_max * cosine * dt / p.tendon_slack_length
+        yielding = stiffness * (y.normalized_force + 0.2) * loss if y.normalized_force > 0 else 0.0
+        ahead = look_ahead(yielding / (cosine * strength * slope))
+        coming = u.activation_level + ahead * (u.activation_level - x.activation_before)
+        longer = u.path_length + ahead * dt * u.path_velocity - x.length * cosine - p.tendon_slack_length
+        velocity = velocity_after(
+            y.normalized_fiber_velocity,
+            longer / p.tendon_slack_length,
+            ahead * loss,
+            stiffness,
+            cosine,
+            passive_force(y.normalized_fiber_length),
+            y.normalized_isometric_force * min(1.0, max(0.0, coming)),
+        )
+        x.activation_before = u.activation_level
+        # A pennation of acos(0.1) at most, as OpenSim has it.
+        widest = math.sin(p.pennation_angle) / math.sqrt(0.99)
+        shortest = max(p.min_fiber_length, widest) * p.optimal_fiber_length
+        x.length = max(shortest, x.length + velocity * v_max * dt)

@@ -1,0 +1,18 @@
+from gaitsim.component import Component, Input, Output, Parameter
+
+
+class WeightedSum(Component):
+    """The sum of its terms, each an objective with a name of its own and a weight.
+
+    terms:
+      effort: {use: objective/minimize, value: {from: effort}}
+      speed: {use: objective/deviation, value: {from: speed}, target: 1.3 m/s, tolerance: 0.1 m/s, weight: 100}
+    """
+
+    scale = Parameter("1", "What one unit of cost is worth.", default=1, bounds=(1e-9, 1e9), source="definition: as is")
+    terms = Input("1", "The costs of its terms.", sums=True)
+    cost = Output("1", "Their sum.")
+
+    @staticmethod
+    def output(p, u, x, y):
+        y.cost = u.terms / p.scale

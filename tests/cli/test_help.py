@@ -1,0 +1,104 @@
+"""Help: an example for each command, quickly; and the shell's completion."""
+
+from __future__ import annotations
+
+import math
+import os
+import resource
+import shlex
+import subprocess
+import sys
+from collections.abc import Iterator
+
+import pytest
+import typer.main
+
+from gaitsim.cli.main import app
+
+from .commands import gaitsim
+
+
+def commands(group: object = None, words: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
+    """The words of every command that does something."""
+    group = group or typer.main.get_command(app)
+    inner = getattr(group, "commands", None)
+    if inner is None:
+        yield words
+        return
+    for name, command in inner.items():
+        yield from commands(command, (*words, name))
+
+
+ALL = list(commands())
+
+
+def test_the_commands_are_found() -> None:
+    assert {("run",), ("optimize",), ("cite",), ("new",), ("library", "check"), ("results", "list")} <= set(ALL)
+
+
+@pytest.mark.parametrize("words", ALL, ids=" ".join)
+def test_every_command_has_an_example_that_is_one(words: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    said = gaitsim(capsys, *words, "--help")
+    assert said.code == 0
+    assert "Example" in said.out
+    text = " ".join(said.out.split())
+    line = text[text.index("Example") :].partition(":")[2].strip()
+    assert line.startswith(f"gaitsim {' '.join(words)}"), "an example begins with the command itself"
+    assert shlex.split(line.split(" Options")[0])
+
+
+HEAVY = ("numpy", "mujoco", "numba", "matplotlib", "distributed", "pint", "pydantic", "xarray", "rich")
+
+
+@pytest.mark.parametrize("words", [(), ("run",), ("library", "show")], ids=" ".join)
+def test_help_comes_at_once(words: tuple[str, ...]) -> None:
+    """Below 0.3 s; counted in seconds of the processor, as tests share theirs with others."""
+    least = math.inf
+    for _ in range(3):
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        subprocess.run([sys.executable, "-m", "gaitsim.cli.main", *words, "--help"], check=True, capture_output=True)
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        least = min(least, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+    assert least < 0.3
+
+
+def test_nothing_heavy_is_imported_for_help() -> None:
+    code = (
+        "import sys, gaitsim.cli.main as m\n"
+        "try: m.main(['--help'])\n"
+        "except SystemExit: print(*sys.modules, file=sys.stderr)"
+    )
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert not set(HEAVY) & set(ran.stderr.split())
+
+
+def completed(line: str) -> list[str]:
+    """What bash is offered after a line."""
+    asked = {"_GAITSIM_COMPLETE": "complete_bash", "COMP_WORDS": line, "COMP_CWORD": str(len(line.split(" ")) - 1)}
+    ran = subprocess.run(
+        [sys.executable, "-m", "gaitsim.cli.main"], env=os.environ | asked, capture_output=True, text=True, check=False
+    )
+    return ran.stdout.split()
+
+
+@pytest.mark.parametrize(
+    ("line", "offered"),
+    [
+        ("gaitsim opt", ["optimize"]),
+        ("gaitsim library sh", ["show"]),
+        ("gaitsim library show muscle/geyer", ["muscle/geyer2003", "muscle/geyer2010"]),
+        ("gaitsim library new mus", ["muscle"]),
+        ("gaitsim new demo --from hopping_geyer2003", ["hopping_geyer2003", "hopping_geyer2003_length"]),
+        ("gaitsim check --conv", ["--convergence"]),
+    ],
+)
+def test_the_shell_completes(line: str, offered: list[str]) -> None:
+    assert completed(line) == offered
+
+
+def test_completion_can_be_installed() -> None:
+    ran = subprocess.run(
+        [sys.executable, "-m", "gaitsim.cli.main", "--show-completion", "bash"], capture_output=True, text=True
+    )
+    assert "_GAITSIM_COMPLETE=complete_bash" in ran.stdout
+    assert "-o default" in ran.stdout  # paths, where nothing of ours is offered
