@@ -1,0 +1,71 @@
+"""Activation dynamics: time constants as muscles.md, section 7, has them simulated."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from parts.calls import Tables, primitive
+
+modes = pytest.mark.parametrize("mode", ["rapid", "normal"])
+THELEN = {"activation_time": 0.015, "deactivation_time": 0.050}
+
+
+def time_to(reference: str, begin: float, excitation: float, level: float, **values: float) -> float:
+    """When the activation passes a level, in s."""
+    dt = 5e-6
+    tables = Tables(primitive(reference)).put({"min_excitation": 0.0, "excitation": excitation, **values})
+    tables.put({"level": begin})
+    steps = 0
+    while (tables.x.level - level) * (begin - level) > 0:
+        tables.call("update", "rapid", dt)
+        steps += 1
+    return steps * dt
+
+
+@pytest.mark.parametrize(
+    ("reference", "values", "rise", "fall"),
+    [
+        ("activation/first_order", {}, 0.010, 0.010),
+        ("activation/two_constants", THELEN, 0.01578, 0.03574),
+        ("activation/two_constants", {}, 0.01052, 0.02859),
+        ("activation/degroote2016", {}, 0.01578, 0.04288),
+    ],
+)
+def test_times_of_a_step(reference: str, values: dict[str, float], rise: float, fall: float) -> None:
+    assert time_to(reference, 0.0, 1.0, 1 - math.exp(-1), **values) == pytest.approx(rise, abs=1.5e-5)
+    assert time_to(reference, 1.0, 0.0, math.exp(-1), **values) == pytest.approx(fall, abs=1.5e-5)
+
+
+@modes
+@pytest.mark.parametrize("reference", ["activation/two_constants", "activation/degroote2016"])
+@pytest.mark.parametrize(("excitation", "activation"), [(0.5, 0.5), (-3, 0.01), (0, 0.01), (7, 1)])
+def test_it_clips_and_starts_settled(reference: str, excitation: float, activation: float, mode: str) -> None:
+    tables = Tables(primitive(reference)).put({"excitation": excitation})
+    tables.call("start", mode)
+    assert tables.x.level == activation
+    tables.call("update", mode, 1e-3)
+    assert tables.x.level == pytest.approx(activation)
+
+
+@modes
+def test_the_smooth_one_is_the_other_far_from_rest(mode: str) -> None:
+    """Its rate is that of Thelen (2003) where tanh has come to its end."""
+    rates = []
+    for reference in ("activation/two_constants", "activation/degroote2016"):
+        values = {"activation_time": 0.015, "deactivation_time": 0.060, "excitation": 1.0, "level": 0.1}
+        tables = Tables(primitive(reference)).put(values)
+        tables.call("update", mode, 1e-6)
+        rates.append((tables.x.level - 0.1) / 1e-6)
+    assert rates[0] == pytest.approx(0.9 / (0.015 * 0.65), rel=1e-9)
+    assert rates[1] == pytest.approx(rates[0], rel=1e-6)
+
+
+def test_the_smooth_one_by_its_equation() -> None:
+    for level, excitation in np.random.default_rng([1]).uniform(0.02, 1, (50, 2)):
+        tables = Tables(primitive("activation/degroote2016")).put({"excitation": excitation, "level": level})
+        tables.call("update", "rapid", 1e-4)
+        f, s = 0.5 * math.tanh(10 * (excitation - level)), 0.5 + 1.5 * level
+        rate = ((f + 0.5) / (0.015 * s) + s / 0.060 * (0.5 - f)) * (excitation - level)
+        assert tables.x.level - level == pytest.approx(rate * 1e-4, rel=1e-9)
