@@ -157,7 +157,8 @@ class DeGroote2016(Component):
     path_velocity = Input("m/s", "Its lengthening velocity.")
 
     length = State("m", "Length of the fiber.")
-    activation_before = State("1", "Activation one step ago.")
+    strength_before = State("1", "A f_l one step ago.")
+    beside_before = State("1", "f_PE one step ago.")
 
     force = Output("N", "Force of the muscle-tendon unit.")
     normalized_force = Output("1", "Force in F_max.")
@@ -196,7 +197,9 @@ class DeGroote2016(Component):
             else:
                 high = middle
         x.length = 0.5 * (low + high)
-        x.activation_before = u.activation_level
+        length = x.length / p.optimal_fiber_length
+        x.strength_before = u.activation_level * active_force(length)
+        x.beside_before = passive_force(length)
 
     @staticmethod
     def output(p, u, x, y):
@@ -225,15 +228,15 @@ class DeGroote2016(Component):
     @staticmethod
     def update(p, u, x, y, dt):
         # A fiber that yields, at low activation, follows its tendon in less than a step; hence the balance
-        # is that of a moment within the step, with the path and the activation going on as they do.
+        # is that of a moment within the step, with the path and what the fiber can hold going on as they do.
         cosine, stiffness = math.cos(y.pennation), tendon_stiffness(p.tendon_strain)
         v_max = p.max_contraction_velocity * p.optimal_fiber_length
         slope = force_and_slope(min(1.0, max(-1.0, y.normalized_fiber_velocity)))[1]
         strength = y.normalized_isometric_force * u.activation_level
-        loss = v_max * cosine * dt / p.tendon_slack_length
+        beside = passive_force(y.normalized_fiber_length)
+        loss = v_max * dt / (cosine * p.tendon_slack_length)
         yielding = stiffness * (y.normalized_force + 0.2) * loss if y.normalized_force > 0 else 0.0
         ahead = look_ahead(yielding / (cosine * strength * slope))
-        coming = u.activation_level + ahead * (u.activation_level - x.activation_before)
         longer = u.path_length + ahead * dt * u.path_velocity - x.length * cosine - p.tendon_slack_length
         velocity = velocity_after(
             y.normalized_fiber_velocity,
@@ -241,10 +244,10 @@ class DeGroote2016(Component):
             ahead * loss,
             stiffness,
             cosine,
-            passive_force(y.normalized_fiber_length),
-            y.normalized_isometric_force * min(1.0, max(0.0, coming)),
+            beside + ahead * (beside - x.beside_before),
+            max(0.5 * strength, strength + ahead * (strength - x.strength_before)),
         )
-        x.activation_before = u.activation_level
+        x.strength_before, x.beside_before = strength, beside
         # A pennation of acos(0.1) at most, as OpenSim has it.
         widest = math.sin(p.pennation_angle) / math.sqrt(0.99)
         shortest = max(p.min_fiber_length, widest) * p.optimal_fiber_length

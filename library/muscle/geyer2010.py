@@ -147,7 +147,7 @@ class Geyer2010(Component):
     path_velocity = Input("m/s", "Its lengthening velocity.")
 
     length = State("m", "Length of the contractile element, l_CE.")
-    activation_before = State("1", "Activation one step ago.")
+    strength_before = State("1", "A f_l + F_PE one step ago.")
 
     force = Output("N", "Force of the muscle-tendon unit.")
     normalized_force = Output("1", "Force in F_max.")
@@ -191,7 +191,8 @@ class Geyer2010(Component):
             else:
                 high = middle
         x.length = 0.5 * (low + high)
-        x.activation_before = u.activation_level
+        length = x.length / p.optimal_fiber_length
+        x.strength_before = u.activation_level * force_length(length, p.width) + parallel_force(length, p.width)
 
     @staticmethod
     def output(p, u, x, y):
@@ -218,7 +219,7 @@ class Geyer2010(Component):
     @staticmethod
     def update(p, u, x, y, dt):
         # A fiber that yields, at low activation, follows its tendon in less than a step; hence the balance
-        # is that of a moment within the step, with the path and the activation going on as they do.
+        # is that of a moment within the step, with the path and what the fiber can hold going on as they do.
         tendon = p.tendon_slack_length * p.tendon_strain
         v_max = p.max_contraction_velocity * p.optimal_fiber_length
         parallel = parallel_force(y.normalized_fiber_length, p.width)
@@ -226,15 +227,14 @@ class Geyer2010(Component):
         slope = force_velocity(min(1.0, y.normalized_fiber_velocity), p.eccentric_force, p.curvature)[1]
         loss = v_max * dt / tendon
         ahead = look_ahead(2 * y.tendon_strain_now / p.tendon_strain * loss / (strength * slope))
-        coming = u.activation_level + ahead * (u.activation_level - x.activation_before)
         velocity = velocity_after(
             y.normalized_fiber_velocity,
             (u.path_length + ahead * dt * u.path_velocity - x.length - p.tendon_slack_length) / tendon,
             ahead * loss,
-            min(1.0, max(0.0, coming)) * y.normalized_isometric_force + parallel,
+            max(0.5 * strength, strength + ahead * (strength - x.strength_before)),
             buffer_force(y.normalized_fiber_length, p.width),
             p.eccentric_force,
             p.curvature,
         )
-        x.activation_before = u.activation_level
+        x.strength_before = strength
         x.length = max(p.min_fiber_length * p.optimal_fiber_length, x.length + velocity * v_max * dt)

@@ -60,9 +60,10 @@ TENDON = (
 
 
 def bezier(u, p0, p1, p2, p3):
-    """A quintic Bezier polynomial whose inner control points count twice."""
-    v = 1 - u
-    return p0 + 5 * (p1 - p0) * u * v * v * v * (1 + u) + (5 * (p2 - p0) * v * (2 - u) + (p3 - p0) * u * u) * u * u * u
+    """A quintic Bezier polynomial whose inner control points count twice, by powers of u."""
+    a, b = 5 * (p1 - p0), 5 * (p2 - p0)
+    square = u * u
+    return p0 + a * u + square * (2 * (b * u - a) + square * (2 * a - 3 * b + (b - a + p3 - p0) * u))
 
 
 def bezier_slope(u, p0, p1, p2, p3):
@@ -72,20 +73,19 @@ def bezier_slope(u, p0, p1, p2, p3):
     return 5 * ((p1 - p0) * b * b + 6 * (p2 - p1) * a * b + (p3 - p2) * a * a)
 
 
-def bezier_curvature(u, p0, p1, p2, p3):
-    """Its second derivative with respect to u."""
-    v = 1 - u
-    return 20 * ((p3 - p2) * u * u * u + 3 * (p2 - p1) * u * v * (v - u) - (p1 - p0) * v * v * v)
-
-
 def bezier_parameter(x, p0, p1, p2, p3):
     """u where an increasing Bezier polynomial is x: three of Halley's steps leave 1e-12 of its rise."""
-    part, half = (x - p0) / (p3 - p0), (15 * (p1 + p2) + p3 - 31 * p0) / (32 * (p3 - p0))
+    rise, whole = x - p0, p3 - p0
+    a, b = 5 * (p1 - p0), 5 * (p2 - p0)
+    c, d = 2 * a - 3 * b, b - a + whole
+    part, half = rise / whole, (3 * (a + b) + whole) / (32 * whole)
     u = part + min(1.0, max(-1.0, (0.5 - half) / (half * (1 - half)))) * part * (1 - part)
     for _ in range(3):
-        rest, slope = bezier(u, p0, p1, p2, p3) - x, bezier_slope(u, p0, p1, p2, p3)
-        step = 2 * rest * slope / (2 * slope * slope - rest * bezier_curvature(u, p0, p1, p2, p3))
-        u = min(1.0, max(0.0, u - step))
+        square = u * u
+        rest = a * u - rise + square * (2 * (b * u - a) + square * (c + d * u))
+        slope = a + u * (6 * b * u - 4 * a) + square * u * (4 * c + 5 * d * u)
+        curvature = 12 * b * u - 4 * a + square * (12 * c + 20 * d * u)
+        u = min(1.0, max(0.0, u - 2 * rest * slope / (2 * slope * slope - rest * curvature)))
     return u
 
 
@@ -131,7 +131,9 @@ def active_force(length):
 
 def passive(strain):
     """f_PE over the fiber's strain in strains at F_max, and its integral."""
-    inside = min(1.0, max(0.0, strain))
+    if strain <= 0:
+        return 0.0, 0.0
+    inside = min(1.0, strain)
     first = inside < PASSIVE[0][3]
     force, area = value_and_area(inside, PASSIVE[0] if first else PASSIVE[1])
     beyond = max(0.0, strain - 1)
@@ -287,7 +289,8 @@ class Millard2012(Component):
     path_velocity = Input("m/s", "Its lengthening velocity.")
 
     length = State("m", "Length of the fiber.")
-    activation_before = State("1", "Activation one step ago.")
+    strength_before = State("1", "A f_l one step ago.")
+    beside_before = State("1", "f_PE one step ago.")
 
     force = Output("N", "Force of the muscle-tendon unit.")
     normalized_force = Output("1", "Force in F_max.")
@@ -322,7 +325,9 @@ class Millard2012(Component):
             else:
                 high = middle
         x.length = 0.5 * (low + high)
-        x.activation_before = u.activation_level
+        length = x.length / p.optimal_fiber_length
+        x.strength_before = u.activation_level * active_force(length)
+        x.beside_before = passive_force((length - 1) / PASSIVE_STRAIN)
 
     @staticmethod
     def output(p, u, x, y):
@@ -352,27 +357,26 @@ class Millard2012(Component):
     @staticmethod
     def update(p, u, x, y, dt):
         # A fiber that yields, at low activation, follows its tendon in less than a step; hence the balance
-        # is that of a moment within the step, with the path and the activation going on as they do.
+        # is that of a moment within the step, with the path and what the fiber can hold going on as they do.
         cosine, tendon_length = math.cos(y.pennation), p.tendon_slack_length * p.tendon_strain
         v_max = p.max_contraction_velocity * p.optimal_fiber_length
         strength = y.normalized_isometric_force * u.activation_level
-        loss = v_max * cosine * dt / tendon_length
+        loss = v_max * dt / (cosine * tendon_length)
         stiffness = tendon_and_slope(y.tendon_strain_now / p.tendon_strain)[1] / cosine
         slope = force_velocity(y.normalized_fiber_velocity)[1]
         beside = passive_force((y.normalized_fiber_length - 1) / PASSIVE_STRAIN)
         ahead = look_ahead(stiffness * loss / (strength * slope + p.damping))
-        coming = u.activation_level + ahead * (u.activation_level - x.activation_before)
         longer = u.path_length + ahead * dt * u.path_velocity - x.length * cosine - p.tendon_slack_length
         velocity = velocity_after(
             y.normalized_fiber_velocity,
             longer / tendon_length,
             ahead * loss,
             cosine,
-            beside,
-            y.normalized_isometric_force * min(1.0, max(0.0, coming)),
+            beside + ahead * (beside - x.beside_before),
+            max(0.5 * strength, strength + ahead * (strength - x.strength_before)),
             p.damping,
         )
-        x.activation_before = u.activation_level
+        x.strength_before, x.beside_before = strength, beside
         # OpenSim's floor: a pennation of acos(0.1), or the shortest fiber that has active force.
         widest = math.sin(p.pennation_angle) / math.sqrt(0.99)
         shortest = max(p.min_fiber_length, widest) * p.optimal_fiber_length

@@ -12,9 +12,10 @@ def bounded(value, limit):
 class Walk(Component):
     """A walk in stages; a candidate in a later stage beats every one in an earlier stage.
 
-    200 to 300, it falls: the cost sinks with the time upright and, up to the target speed, with the
-    distance covered. 100 to 200, it does not fall, but its speed is not within the tolerance: the
-    cost sinks with the distance to it. 0 to 100, it walks: cost of transport in J/(kg m), plus what
+    200 to 300, it falls or does not get on, as one that stands still: the cost sinks with the time it
+    walked, which is the time upright, but not more than the distance took at the target speed. Those who
+    need more than twice that time do not get on. 100 to 200, it does not fall, but its speed is not
+    within the tolerance: the cost sinks with the distance to it. 0 to 100, it walks: cost of transport in J/(kg m), plus what
     joints lean on their stops, what the feet strike the ground with, and any further terms; as it
     is up to 50, and slower above so that it stays below 100.
     """
@@ -25,7 +26,7 @@ class Walk(Component):
     )
     patience = Parameter(
         "s",
-        "Time upright after which half of the cost of a fall is gone.",
+        "Time walked after which half of the cost of a fall is gone.",
         default=5,
         bounds=(1e-3, 1e4),
         source="definition: some steps",
@@ -63,9 +64,9 @@ class Walk(Component):
     @staticmethod
     def output(p, u, x, y):
         miss = abs(u.speed - p.speed_target) - p.speed_tolerance
-        if u.fell > 0.5:
-            walked = min(u.fall_time, max(0.0, u.distance) / p.speed_target)
-            y.cost = 200 + 100 * p.patience / (p.patience + 0.5 * (u.fall_time + walked))
+        walked = min(u.fall_time, max(0.0, u.distance) / p.speed_target)
+        if u.fell > 0.5 or walked < 0.5 * u.fall_time:
+            y.cost = 200 + 100 * p.patience / (p.patience + walked)
         elif miss > 0:
             y.cost = 100 + 100 * miss / (miss + p.speed_target)
         elif math.isnan(miss):

@@ -1,6 +1,9 @@
-import math
-
 from gaitsim.component import Component, Input, Output, Parameter
+
+
+def whole(number):
+    """The largest whole number that is not larger."""
+    return number - number % 1
 
 
 class Steps(Component):
@@ -22,8 +25,8 @@ class Steps(Component):
 
     @staticmethod
     def output(p, u, x, y):
-        climbed = math.floor((u.position - p.first) / p.run) + 1
-        y.height = p.rise * min(math.floor(p.count), max(0, climbed))
+        climbed = whole((u.position - p.first) / p.run) + 1
+        y.height = p.rise * min(whole(p.count), max(0.0, climbed))
         y.slope = 0.0
 
     @staticmethod

@@ -45,7 +45,7 @@ _DRIVEN = """    path: {{use: path/driven, rate: {rate} m/s, time: {time} s, str
   switch: {{use: controller/switch, low: {low}, high: {high}, on: 49.999 ms, off: 249.999 ms, to: muscle.excitation}}
 simulate: {{duration: 0.4 s, step: {step} s}}
 """
-_LIFT = """    excitation: 1
+_LIFT = """    excitation: {excitation}
     path: {{use: path/sites, points: [{{on: world, at: [0 m, 0 m, 1 m]}}, {{on: load.center, at: [0 m, 0 m, 0 m]}}]}}
   load: {{use: segment/point_mass, mass: {mass} kg}}
   guide: {{use: joint/vertical, parent: world, child: load.center}}
@@ -54,8 +54,8 @@ simulate: {{duration: 0.15 s, step: {step} s}}
 """
 
 
-def trial(name: str, muscle: str, size: Size, step: float, more: str = "") -> Trajectory:
-    """What a muscle does in a trial; `more` are further lines of its entry."""
+def trial(name: str, muscle: str, size: Size, step: float, more: str = "", excitation: float = 1) -> Trajectory:
+    """What a muscle does in a trial; `more` are further lines of its entry, `excitation` is that of a lift."""
     rate = 0.5 * size.velocity * size.fiber
     words = {"rate": 0.0, "time": 0.05, "low": 0.01, "high": 0.01}
     if name == "isometric":
@@ -67,7 +67,8 @@ def trial(name: str, muscle: str, size: Size, step: float, more: str = "") -> Tr
     # The lift begins where the muscle holds about F_max; the weight is 0.3 of that.
     lifting = {"mass": 0.3 * size.force / 9.81, "height": 1 - size.fiber - 1.04 * size.tendon}
     text = _MUSCLE + more + (_LIFT if name == "lift" else _DRIVEN)
-    document = parse(text.format(muscle=muscle, size=size, step=step, **words, **lifting), "rig.yaml")
+    text = text.format(muscle=muscle, size=size, step=step, excitation=excitation, **words, **lifting)
+    document = parse(text, "rig.yaml")
     library = Library([FOLDER / "components", *library_folders(FOLDER)])
     outcome = Simulator(resolve(document, library, "rig")).run(recorded=True)
     assert outcome.status == "completed", outcome.reason

@@ -83,6 +83,13 @@ def test_of_two_falls_at_one_time_the_one_that_walked_further_costs_less() -> No
     assert fallen(3, 5.0) == fallen(3, 1.3)
 
 
+def test_who_stands_still_beats_no_one_who_walks() -> None:
+    standing = walk(fall_time=20.0, distance=0.5, speed=0.0)
+    assert fallen(1) < standing == fallen(0.5 / 1.3)
+    slow, slower = (walk(fall_time=20.0, distance=20 * v, speed=v) for v in (0.66, 0.64))
+    assert 100 < slow < 200 < slower < fallen(9)
+
+
 def test_speed_counts_before_effort() -> None:
     misses = [walk(speed=1.3 + sign * off) for off in np.linspace(0.101, 3, 50) for sign in (1, -1)]
     assert min(misses) > 100 and max(misses) < 200

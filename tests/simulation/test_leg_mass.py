@@ -79,7 +79,8 @@ simulate: {{duration: 10 ms}}
 
 
 def facts(outcome: Outcome) -> tuple[object, ...]:
-    return (outcome.status, outcome.reason, outcome.steps, outcome.score, sorted(outcome.metrics.items()))
+    metrics = {name: value.hex() for name, value in outcome.metrics.items()}
+    return (outcome.status, outcome.reason, outcome.steps, outcome.score, metrics)
 
 
 def test_closing_is_quick_and_always_the_same() -> None:
