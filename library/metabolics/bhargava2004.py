@@ -50,7 +50,7 @@ class Bhargava2004(Component):
     )
     least_heat = Parameter("W/kg", "Heat does not fall below this.", default=1, bounds=(0, 100), source="umberger2003")
 
-    excitation = Input("1", "Excitation u; clipped to [0, 1].")
+    excitation = Input("1", "Excitation u; clipped to [0, 1].", sums=True)
     activation = Input("1", "Activation a.")
     normalized_isometric_force = Input("1", "f_l of the fiber.")
     normalized_fiber_length = Input("1", "Fiber length l in l_opt.")

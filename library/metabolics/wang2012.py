@@ -41,7 +41,7 @@ class Wang2012(Component):
         "1", "Shortening heat per force and velocity.", default=0.25, bounds=(0, 10), source="wang2012"
     )
 
-    excitation = Input("1", "Excitation u; clipped to [0, 1].")
+    excitation = Input("1", "Excitation u; clipped to [0, 1].", sums=True)
     activation = Input("1", "Activation a.")
     normalized_isometric_force = Input("1", "f_l of the fiber.")
     normalized_fiber_length = Input("1", "Fiber length l in l_opt.")

@@ -306,6 +306,14 @@ class Millard2012(Component):
     elastic_energy = Output("J", "Elastic energy in the tendon and the parallel element.")
 
     active_curve = Curve(of="active_force", over="length", span=(0.4, 1.9), doc="f_l over the length in l_opt.")
+    velocity_curve = Curve(
+        of="velocity_from_force",
+        over="force",
+        span=(-0.1, 1.5),
+        doc="f_v + 0.1 v over the velocity in v_max.",
+        at={"active": 1, "damping": "damping"},
+        inverse=True,
+    )
     passive_curve = Curve(of="passive_force", over="strain", span=(-0.2, 1.2), doc="f_PE over the strain / 0.7.")
     tendon_curve = Curve(of="tendon_force", over="strain", span=(-0.2, 1.2), doc="f_T over the strain / 0.049.")
 
