@@ -31,8 +31,8 @@ def _gap(model: Any, data: Any, place: Touching) -> float:
     """By how much a place would have to sink to touch the ground below it, in m."""
     body = model.body(place.body).id
     center = data.xpos[body] + data.xmat[body].reshape(3, 3) @ np.array(place.position)
-    above = center + [0.0, 0.0, _ABOVE]
-    down = np.array([0.0, 0.0, -1.0])
+    up = np.array([0.0, 0.0, 1.0])
+    above, down = center + _ABOVE * up, -up
     gaps = []
     for g in (g for g in range(model.ngeom) if model.geom(g).name.startswith(GROUND)):
         turn = data.geom_xmat[g]

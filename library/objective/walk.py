@@ -13,11 +13,11 @@ class Walk(Component):
     """A walk in stages; a candidate in a later stage beats every one in an earlier stage.
 
     200 to 300, it falls or does not get on, as one that stands still: the cost sinks with the time it
-    walked, which is the time upright, but not more than the distance took at the target speed. Those who
-    need more than twice that time do not get on. 100 to 200, it does not fall, but its speed is not
-    within the tolerance: the cost sinks with the distance to it. 0 to 100, it walks: cost of transport in J/(kg m), plus what
-    joints lean on their stops, what the feet strike the ground with, and any further terms; as it
-    is up to 50, and slower above so that it stays below 100.
+    walked, which is the time upright, but not more than the distance takes at the target speed. Who
+    is upright for more than twice that time does not get on. 100 to 200, it does not fall, but its
+    speed is not within the tolerance: the cost sinks with the distance to it. 0 to 100, it walks: cost
+    of transport in J/(kg m), plus what joints lean on their stops, what the feet strike the ground
+    with, and any further terms; as it is up to 50, and slower above so that it stays below 100.
     """
 
     speed_target = Parameter("m/s", "Speed that is wanted.", default=1.3, bounds=(0.01, 10), source="geyer2010")
