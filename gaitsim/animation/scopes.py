@@ -30,9 +30,10 @@ def usual(model: Model, stage: Stage) -> list[Signal]:
     muscle = next((part.address for part in model.parts if part.type.kind == "muscle"), None)
     wanted = [f"{muscle}.activation", f"{muscle}.force"] if muscle else []
     wanted += [force.up for force in stage.forces if force.up is not None][:_FORCES]
-    wanted += [signal.address for signal in known.values() if signal.levels][:_FORCES]
-    wanted += _coordinates(stage)
     controllers = [part for part in model.parts if part.type.kind == "controller" and part.type.outputs]
+    states = [f"{part.address}.{name}" for part in controllers for name in part.type.states]
+    wanted += [address for address in states if address in known and known[address].levels][:_FORCES]
+    wanted += _coordinates(stage)
     wanted += [f"{part.address}.{next(iter(part.type.outputs))}" for part in controllers[:1]]
     return [known[address] for address in dict.fromkeys(wanted) if address in known][:_MOST]
 
