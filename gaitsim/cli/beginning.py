@@ -60,7 +60,7 @@ def begun(request: Request, root: Path) -> Tuning:
         move = "add one, such as objective: {use: objective/maximize, value: {from: a metric}}"
         raise InvalidSpec(Fault(f"this spec has no objective; {move}.", Mark(str(request.spec))))
     search = _search_of(source, request)
-    algorithm = ALGORITHMS[search["algorithm"]](problem_of(model), search["seed"], search["population"])
+    algorithm = ALGORITHMS[search["algorithm"]](problem_of(model, search["spread_factor"]), search["seed"], search["population"])
     search["population"] = algorithm.population
     mode: Mode = "normal" if request.mode == "normal" else "rapid"
     each = episode_models(source.document, source.library, source.name)

@@ -39,7 +39,7 @@ class Tuning:
 
     @property
     def problem(self) -> Problem:
-        return problem_of(self.model)
+        return problem_of(self.model, self.manifest["search"].get("spread_factor", 1.0))
 
     @property
     def generations(self) -> int:

@@ -56,6 +56,6 @@ def _number(node: object, path: Path) -> float:
     raise InvalidSpec(Fault("this is no tuned value; write the file anew with optimize --adopt.", mark))
 
 
-def problem_of(model: Model) -> Problem:
-    """The tuned numbers of a model as a problem."""
-    return Problem(tuple(Variable(f.address, f.unit, f.low, f.high, f.start, f.spread) for f in model.free))
+def problem_of(model: Model, spread: float = 1.0) -> Problem:
+    """The tuned numbers of a model as a problem; spread is a factor on the spreads that the spec gives."""
+    return Problem(tuple(Variable(f.address, f.unit, f.low, f.high, f.start, spread * f.spread) for f in model.free))

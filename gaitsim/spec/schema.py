@@ -100,6 +100,9 @@ class SearchSection(_Section):
     population: Annotated[int, Field(ge=2)] | None = Field(default=None, description="Candidates a generation.")
     generations: int = Field(default=100, ge=1, description="Generations at most.")
     seed: int = Field(default=1, ge=0, description="Seed of the search.")
+    spread_factor: float = Field(
+        default=1.0, gt=0, le=100, description="Factor on every spread: below 1 a search stays nearer to its start."
+    )
 
 
 class OptimizeSection(SearchSection):
@@ -197,6 +200,12 @@ def _report(detail: Any, document: Mapping, faults: Faults) -> None:
             faults.add(f"there is nothing in it; write {sample}.", mark, address)
         case "greater_than_equal":
             faults.add(f"{detail['input']} is too small; this is at least {detail['ctx']['ge']}.", mark, address)
+        case "greater_than" | "less_than_equal":
+            words = {"gt": "above", "le": "at most"}
+            (limit,) = (f"{words[key]} {value:g}" for key, value in detail["ctx"].items() if key in words)
+            faults.add(f"{detail['input']} is out of range; this is {limit}.", mark, address)
+        case "float_type" | "float_parsing":
+            faults.add(f'"{detail["input"]}" is no number; write {name}: 0.5.', mark, address)
         case "int_type" | "int_parsing" | "int_from_float":
             faults.add(f'"{detail["input"]}" is no whole number; write {name}: 16.', mark, address)
         case kind:

@@ -25,6 +25,30 @@ class Variant:
     mark: Mark | None = None
 
 
+@dataclass(frozen=True)
+class Span:
+    """All values from one end to another, which may be the lower one, in one unit."""
+
+    first: float
+    last: float
+    unit: str
+
+    def at(self, share: float) -> str:
+        """The value at a share of the way, from 0 to 1, as a spec has it."""
+        suffix = "" if self.unit == "1" else f" {self.unit}"
+        return f"{float(f'{self.first + share * (self.last - self.first):.12g}')!r}{suffix}"
+
+
+def span(text: str) -> tuple[str, Span]:
+    """An address and the values to look through: `push.strength=0 N:200 N`. Errors: Usage."""
+    address, values = split_setting(text, "--vary")
+    pieces = [piece.strip() for piece in values.split(":")]
+    found = _span(*pieces, text) if len(pieces) == 2 else None
+    if found is None or found.first == found.last:
+        raise Usage(f"--vary {text}: this is from:to, two values that differ, such as push.strength=0 N:200 N.")
+    return address, found
+
+
 def variants(document: Mapping, vary: Many[str]) -> list[Variant]:
     """Every row of the spec's `study:` combined with every value of each `--vary`.
 
@@ -90,18 +114,22 @@ def _column(text: str) -> tuple[str, list[str]]:
 
 
 def _range(pieces: list[str], text: str) -> list[str]:
+    count = int(pieces[2]) if pieces[2].isdigit() else 0
+    span = _span(pieces[0], pieces[1], text)
+    if span is None or not 1 <= count <= _RANGE_LIMIT:
+        raise Usage(f"--vary {text}: a range is low:high:count, such as gain=1:15:20.")
+    return [span.at(i / max(1, count - 1)) for i in range(count)]
+
+
+def _span(low: str, high: str, text: str) -> Span | None:
+    """What lies between two values; None if one is no number. Errors: Usage for units that do not fit."""
     try:
-        low, high = parse_quantity(pieces[0]), parse_quantity(pieces[1])
+        first, last = parse_quantity(low), parse_quantity(high)
     except UnknownUnit as error:
         raise Usage(f"--vary {text}: {unknown_unit(str(error))}") from error
-    count = int(pieces[2]) if pieces[2].isdigit() else 0
-    if low is None or high is None or not 1 <= count <= _RANGE_LIMIT:
-        raise Usage(f"--vary {text}: a range is low:high:count, such as gain=1:15:20.")
-    if low.unit.text != high.unit.text and low.unit.dimension != high.unit.dimension:
+    if first is None or last is None:
+        return None
+    if first.unit.text != last.unit.text and first.unit.dimension != last.unit.dimension:
         raise Usage(f"--vary {text}: both ends need the same unit, such as 1 ms:5 ms:3.")
-    first, last, unit = low.value / low.unit.factor, high.value / low.unit.factor, low.unit.text
-    suffix = "" if unit == "1" else f" {unit}"
-    if count == 1:
-        return [f"{first!r}{suffix}"]
-    step = (last - first) / (count - 1)
-    return [f"{float(f'{first + i * step:.12g}')!r}{suffix}" for i in range(count)]
+    factor = first.unit.factor
+    return Span(first.value / factor, last.value / factor, first.unit.text)

@@ -98,7 +98,10 @@ def test_the_shell_completes(line: str, offered: list[str]) -> None:
 
 def test_completion_can_be_installed() -> None:
     ran = subprocess.run(
-        [sys.executable, "-m", "gaitsim.cli.main", "--show-completion", "bash"], capture_output=True, text=True
+        [sys.executable, "-m", "gaitsim.cli.main", "--show-completion", "bash"],
+        capture_output=True,
+        text=True,
+        env={**os.environ, "_TYPER_COMPLETE_TEST_DISABLE_SHELL_DETECTION": "1"},
     )
     assert "_GAITSIM_COMPLETE=complete_bash" in ran.stdout
     assert "-o default" in ran.stdout  # paths, where nothing of ours is offered
