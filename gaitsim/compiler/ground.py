@@ -23,7 +23,9 @@ def add_ground(spec: Any, angle: float, edges: Sequence[tuple[float, float]], in
 
     Errors: ValueError if the ground is another already.
     """
-    wanted = [_plane(angle)] if not edges else _treads(angle, edges)
+    # At an edge without a height a sphere would touch two boxes, and so be held twice.
+    level = all(height == 0 for _, height in edges)
+    wanted = [_plane(angle)] if level else _treads(angle, edges)
     present = [geom for geom in spec.worldbody.geoms if geom.name.startswith(GROUND)]
     if present:
         if not _same(present, wanted):

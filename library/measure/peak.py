@@ -16,14 +16,18 @@ class Peak(Component):
     count = State("1", "How many gates have closed.")
     highest = State("*", "Peak since the gate opened.")
     inside = State("1", "1 if the gate was open in the last step.")
+    greatest = State("*", "Peak since the gate opened for the first time.")
+    opened = State("1", "1 once the gate has been open.")
 
     value = Metric("*", "Mean of the last peaks; without a closed gate, the peak of the open one.")
-    overall = Metric("*", "Largest value since the last gate opened.")
+    overall = Metric("*", "Largest value wherever the gate was open.")
 
     @staticmethod
     def update(p, u, x, y, dt):
         if u.gate > 0.5:
             x.highest = max(x.highest, u.signal) if x.inside > 0.5 else u.signal
+            x.greatest = max(x.greatest, u.signal) if x.opened > 0.5 else u.signal
+            x.opened = 1.0
         elif x.inside > 0.5:
             x.samples[int(x.count) % 16] = x.highest
             x.count = x.count + 1
@@ -35,7 +39,7 @@ class Peak(Component):
         total = 0.0 * x.highest
         for i in range(count):
             total = total + x.samples[(int(x.count) - 1 - i) % 16]
-        m.overall = x.highest
+        m.overall = x.greatest
         if count:
             m.value = total / count
         else:

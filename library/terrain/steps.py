@@ -7,9 +7,9 @@ def whole(number):
 
 
 class Steps(Component):
-    """Level ground at height 0 up to a first edge, then steps of one height and depth.
+    """Ground at height 0 up to a first edge, then steps of one height and depth; level, or all of it on a slope.
 
-    A step is a jump of the height. Contacts with a force of their own do not feel the riser: a point that
+    Positions and heights are along the slope and its normal. A step is a jump of the height. Contacts with a force of their own do not feel the riser: a point that
     slides across an edge is below the upper ground at once. MuJoCo's contact does feel it.
     """
 
@@ -19,16 +19,23 @@ class Steps(Component):
         "m", "Depth of a step, from edge to edge.", default=1, bounds=(0.01, 1000), source="definition: a choice"
     )
     count = Parameter("1", "Number of steps.", default=1, bounds=(1, 100), source="definition: one step")
+    angle = Parameter(
+        "deg",
+        "By how much the ground rises forwards between edges; below 0, it falls.",
+        default=0,
+        bounds=(-60, 60),
+        source="definition: level ground",
+    )
     position = Input("m", "Where along the ground.", default=0)
     height = Output("m", "Height of the ground there.")
-    slope = Output("rad", "By how much the ground rises forwards: 0.")
+    slope = Output("rad", "By how much the ground rises forwards.")
 
     @staticmethod
     def output(p, u, x, y):
         climbed = whole((u.position - p.first) / p.run) + 1
         y.height = p.rise * min(whole(p.count), max(0.0, climbed))
-        y.slope = 0.0
+        y.slope = p.angle
 
     @staticmethod
     def build(p, mj):
-        mj.ground(edges=[(p.first + i * p.run, (i + 1) * p.rise) for i in range(int(p.count))])
+        mj.ground(p.angle, edges=[(p.first + i * p.run, (i + 1) * p.rise) for i in range(int(p.count))])

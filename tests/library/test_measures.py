@@ -88,6 +88,7 @@ def test_peak_with_a_gate() -> None:
     signal[0] = signal[5] = 99.0  # outside
     found = metrics("measure/peak", {"signal": signal, "gate": gate}, 0.01)
     assert found["value"] == pytest.approx(30)
+    assert found["overall"] == 40
     assert metrics("measure/peak", {"signal": signal, "gate": gate}, 0.01, average=2)["value"] == pytest.approx(35)
     # A negative signal has its peak too: nothing is compared with a zero from before.
     below = metrics("measure/peak", {"signal": [-s - 1 for s in signal], "gate": gate}, 0.01)

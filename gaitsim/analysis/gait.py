@@ -1,0 +1,303 @@
+"""Figures of a walker on two legs: everything over the gait cycle, beside people; steps; symmetry."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gaitsim.analysis.cycles import Floats
+from gaitsim.analysis.drawing import Drawing
+from gaitsim.analysis.footsteps import double_support, margin, steps, symmetry
+from gaitsim.analysis.gait_norms import Followed, Matched, followed, later, matched_moments, matched_signals
+from gaitsim.analysis.joint_moments import joint_power
+from gaitsim.analysis.legs import PERCENT, SIDES, Cycle, Leg, mass, on_side, two_legs, unsided
+from gaitsim.analysis.replay import Replay
+from gaitsim.analysis.style import FONT, GREY, LINES, PALETTE, above, labelled, panels, quantity
+from gaitsim.units import parse_unit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+Legs = Sequence[Leg]
+_LINE = {"l": {"color": PALETTE[0], "linestyle": LINES[0]}, "r": {"color": PALETTE[1], "linestyle": LINES[1]}}
+_SPREAD = "Bands of a leg's colour: one standard deviation over its strides."
+
+
+def gait_figures(replay: Replay) -> list[Drawing]:
+    """Angles, ground forces, moments and powers, activations, steps, margin to falling, symmetry."""
+    legs = two_legs(replay)
+    if legs is None:
+        return []
+    return [
+        *_angles(replay, legs),
+        _forces(legs),
+        *_moments(replay, legs),
+        *_activations(replay, legs),
+        _steps(replay, legs),
+        *_margin(replay, legs),
+        _symmetry(replay, legs),
+    ]
+
+
+def _said(legs: Legs) -> str:
+    """Which strides are meant."""
+    counts = " and ".join(f"{len(leg.strides)} strides of the {leg.name} leg" for leg in legs)
+    return f"mean of {counts}, from {min(leg.touchdowns[0] for leg in legs):.3g} s on, from touchdown to touchdown"
+
+
+def draw_cycle(panel: Axes, leg: Leg, cycle: Cycle, factor: float = 1.0) -> None:
+    """Mean and band over the gait cycle, and a thin line where the leg lifts off."""
+    style = _LINE[leg.side]
+    mean, deviation = factor * cycle.mean, abs(factor) * cycle.deviation
+    panel.fill_between(PERCENT, mean - deviation, mean + deviation, color=style["color"], alpha=0.18, linewidth=0)
+    panel.plot(PERCENT, mean, label=leg.name, **style)
+    lift = 100 * float(np.mean(leg.share(leg.standing)))
+    panel.axvline(lift, color=style["color"], linestyle=":", linewidth=0.9)
+    panel.set_xlim(0, 100)
+
+
+def _draw_people(panel: Axes, matched: Matched, factor: float) -> None:
+    low, high = (factor * edge for edge in matched.norm.band)
+    if matched.norm.deviation is not None:
+        panel.fill_between(PERCENT, low, high, color=GREY, alpha=0.3, linewidth=0)
+    panel.plot(PERCENT, factor * matched.norm.mean, color=GREY, linewidth=1, label="people")
+
+
+def _draw_matched(panel: Axes, legs: Legs, matched: Matched, unit: str) -> None:
+    factor = 1 / parse_unit(unit).factor
+    _draw_people(panel, matched, factor)
+    for leg in legs:
+        if leg.side in matched.cycles:
+            draw_cycle(panel, leg, matched.cycles[leg.side], factor)
+    panel.set_ylabel(labelled(matched.name.removesuffix(" moment"), unit))
+
+
+def compared_words(matched: Matched) -> str:
+    """The numbers of each leg beside people's, as a caption has them."""
+    unit = matched.norm.unit
+    factor, words = parse_unit(unit).factor, []
+    for side in matched.cycles:
+        found = matched.comparison(side)
+        fit = f", fit {found.fit:.0f} %" if matched.norm.deviation is not None else ""
+        peak = later(found.highest_at, found.norm_highest_at)
+        reach = (found.reach - found.norm_reach) / factor
+        words.append(
+            f"{SIDES[side]} r {found.correlation:.2f}, RMSE {found.error / factor:.3g} {unit}, range "
+            f"{reach:+.3g} {unit}, highest {peak:+.0f} % of the cycle{fit}"
+        )
+    return f"{matched.name.capitalize()}: {'; '.join(words)}."
+
+
+def _people_words(matched: Sequence[Matched]) -> str:
+    bands = any(one.norm.deviation is not None for one in matched)
+    sources = ", ".join(dict.fromkeys(one.norm.recorded_by for one in matched if one.norm.recorded_by))
+    band = " with one standard deviation over subjects" if bands else ""
+    return f"Grey: healthy people's mean{band}{f' ({sources})' if sources else ''}."
+
+
+def _angles(replay: Replay, legs: Legs) -> list[Drawing]:
+    matched = matched_signals(replay, legs)
+    if not matched:
+        return []
+    figure, axes = panels(len(matched), 1, height=1.9, share=True)
+    for panel, one in zip(axes, matched, strict=True):
+        _draw_matched(panel, legs, one, one.norm.unit)
+    above(axes[0])
+    axes[-1].set_xlabel(labelled("gait cycle", "%"))
+    turning = all(quantity(one.norm.unit) == "angle" for one in matched)
+    title = "Joint angles over the gait cycle" if turning else "Signals over the gait cycle"
+    caption = (
+        f"{', '.join(one.name for one in matched)}: {_said(legs)}. {_SPREAD} Dotted: take-off. "
+        f"{_people_words(matched)} {' '.join(compared_words(one) for one in matched)} Range and place of the highest "
+        "value are the model's minus people's; zeros of hip and ankle differ by 10 to 20 deg between laboratories."
+    )
+    return [Drawing("gait_angles", title, caption, figure)]
+
+
+def _forces(legs: Legs) -> Drawing:
+    figure, (vertical, forward) = panels(2, 1, height=1.9, share=True)
+    words = []
+    for leg in legs:
+        load, shear = leg.over_cycle(leg.load), leg.over_cycle(leg.shear)
+        draw_cycle(vertical, leg, load)
+        draw_cycle(forward, leg, shear)
+        highest = float(np.mean(np.max(load.rows, axis=1)))
+        words.append(
+            f"{leg.name} at most {highest:.3g}, braking {np.min(shear.mean):.2g}, propulsion {np.max(shear.mean):.2g}"
+        )
+    vertical.axhline(1, color=GREY, linewidth=0.8, linestyle=":")
+    vertical.set_ylabel("vertical (body weights)")
+    forward.set_ylabel("forwards (body weights)")
+    forward.set_xlabel(labelled("gait cycle", "%"))
+    above(vertical)
+    caption = (
+        f"Force of the ground on each foot in body weights, along the ground's normal and forwards along the ground: "
+        f"{_said(legs)}. {_SPREAD} Dotted: take-off. {'; '.join(words)} (highest: mean over strides of each one's peak; "
+        "braking and propulsion of the mean stride)."
+    )
+    return Drawing("gait_forces", "Ground reaction forces over the gait cycle", caption, figure)
+
+
+def _moments(replay: Replay, legs: Legs) -> list[Drawing]:
+    matched = matched_moments(replay, legs)
+    joints = {one.name.split()[0]: one for one in followed(replay)}
+    if not matched:
+        return []
+    figure, axes = panels(len(matched), 2, height=1.8, share=True)
+    words = []
+    for row, one in enumerate(matched):
+        moment, power = axes[2 * row], axes[2 * row + 1]
+        _draw_matched(moment, legs, one, "N m/kg")
+        works = _draw_power(power, replay, legs, joints[one.name.split()[0]])
+        words.append(f"{compared_words(one)} Work a stride: {works}.")
+    axes[0].set_title("moment", loc="left", fontsize=FONT)
+    axes[1].set_title("power", loc="left", fontsize=FONT)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=3, frameon=False, fontsize=FONT)
+    for panel in axes[-2:]:
+        panel.set_xlabel(labelled("gait cycle", "%"))
+    caption = (
+        f"Net joint moments (of muscles, stops and damping) and their powers over body mass: {_said(legs)}. Extension "
+        f"and plantarflexion are positive; power is positive where a joint gives work. {_SPREAD} Dotted: take-off. "
+        f"{_people_words(matched)} {' '.join(words)}"
+    )
+    return [Drawing("gait_moments", "Joint moments and powers over the gait cycle", caption, figure)]
+
+
+def _draw_power(panel: Axes, replay: Replay, legs: Legs, joint: Followed) -> str:
+    """A joint's power in W/kg, and in words what it gives and takes in a stride."""
+    words = []
+    for leg in legs:
+        power = joint_power(replay, on_side(joint.source, leg.side).rpartition(".")[0])
+        if power is None:
+            continue
+        each = power / mass(replay, leg)
+        draw_cycle(panel, leg, leg.over_cycle(each))
+        seconds = float(np.mean([end - begin for begin, end in leg.strides]))
+        given, taken = (float(np.mean(leg.share(part))) * seconds for part in (np.maximum(each, 0), np.minimum(each, 0)))
+        words.append(f"{leg.name} {given:+.2g} and {taken:+.2g} J/kg")
+    panel.set_ylabel(labelled(joint.name.split()[0], "W/kg"))
+    return ", ".join(words)
+
+
+def _activations(replay: Replay, legs: Legs) -> list[Drawing]:
+    names = _sided_muscles(replay)
+    if not names:
+        return []
+    figure, axes = panels((len(names) + 1) // 2, 2, height=1.3, share=True)
+    for panel, name in zip(axes, names, strict=False):
+        for leg in legs:
+            draw_cycle(panel, leg, leg.over_cycle(replay.trajectory[f"{names[name][leg.side]}.activation"]))
+        panel.set_title(name.replace("_", " "), loc="left", fontsize=FONT)
+        panel.set_ylim(0, 1.02)
+        panel.set_ylabel(labelled("activation", "1"))
+    for unused in axes[len(names) :]:
+        unused.set_axis_off()
+    for panel in axes[: len(names)][-2:]:
+        panel.set_xlabel(labelled("gait cycle", "%"))
+        panel.tick_params(labelbottom=True)
+    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=FONT)
+    caption = f"Activation of each muscle: {_said(legs)}. {_SPREAD} Dotted: take-off."
+    return [Drawing("gait_activations", "Muscle activations over the gait cycle", caption, figure)]
+
+
+def _sided_muscles(replay: Replay) -> dict[str, dict[str, str]]:
+    """Muscles that both sides have: name within the side -> side -> address."""
+    found: dict[str, dict[str, str]] = {}
+    for part in replay.model.parts:
+        if part.type.kind == "muscle":
+            for side in SIDES:
+                if on_side(part.address, side) == part.address:
+                    found.setdefault(unsided(part.address), {})[side] = part.address
+    return {name: pair for name, pair in found.items() if pair.keys() == SIDES.keys()}
+
+
+def _steps(replay: Replay, legs: Legs) -> Drawing:
+    figure, (length, pace, share) = panels(3, 1, height=1.6, share=True)
+    found = steps(replay, legs)
+    for leg in legs:
+        mine = [step for step in found if step.side == leg.side]
+        dots = {"color": _LINE[leg.side]["color"], "marker": "o" if leg.side == "l" else "s", "markersize": 4}
+        at = [step.at for step in mine]
+        length.plot(at, [step.length for step in mine], label=leg.name, linewidth=0.8, **dots)
+        pace.plot(at, [step.cadence for step in mine], linewidth=0.8, **dots)
+        begun = leg.touchdowns[:-1]
+        share.plot(begun, 100 * leg.share(leg.standing), label=f"stance, {leg.name}", linewidth=0.8, **dots)
+    first, other = legs
+    both = 100 * double_support(first, other)
+    share.plot(first.touchdowns[:-1], both, color=GREY, marker="^", markersize=4, linewidth=0.8, label="double support")
+    length.set_ylabel(labelled("step length", "m"))
+    pace.set_ylabel(labelled("cadence", "1/min"))
+    share.set_ylabel(labelled("share of stride", "%"))
+    share.set_xlabel(labelled("time of touchdown", "s"))
+    above(length)
+    above(share)
+    lengths, cadences = ([getattr(step, word) for step in found] for word in ("length", "cadence"))
+    stances = 100 * np.concatenate([leg.share(leg.standing) for leg in legs])
+    caption = (
+        f"Each step ends with the touchdown of the leg of its colour. Over all: step length {_spread(lengths)} m, cadence "
+        f"{_spread(cadences)} steps a minute, stance {_spread(stances)} % of the stride, double support {_spread(both)} "
+        "% (mean ± standard deviation). A length is the distance from the other foot's print to this one's."
+    )
+    return Drawing("gait_steps", "Steps", caption, figure)
+
+
+def _spread(values: Sequence[float] | Floats) -> str:
+    return f"{np.mean(values):.3g} ± {np.std(values):.2g}" if len(values) else "–"
+
+
+def _margin(replay: Replay, legs: Legs) -> list[Drawing]:
+    found = margin(replay, legs)
+    if found is None:
+        return []
+    figure, (panel,) = panels(height=2.2)
+    for leg in legs:
+        draw_cycle(panel, leg, leg.over_cycle(100 * found))
+    panel.axhline(0, color=GREY, linewidth=0.8)
+    panel.set_ylabel(labelled("margin forwards", "cm"))
+    panel.set_xlabel(labelled("gait cycle", "%"))
+    above(panel)
+    landed = [100 * float(np.mean(leg.over_cycle(found).rows[:, 0])) for leg in legs]
+    caption = (
+        "By how far the foremost point that stands is ahead of the extrapolated center of mass, x + v / sqrt(g / l) with l "
+        f"its mean height (Hof and others 2005): {_said(legs)}. {_SPREAD} At touchdown: "
+        f"{' and '.join(f'{leg.name} {at:.3g} cm' for leg, at in zip(legs, landed, strict=True))}. "
+        "Below 0 the next step must catch the fall forwards, as people's does at touchdown."
+    )
+    return [Drawing("gait_margin", "Margin to falling over the gait cycle", caption, figure)]
+
+
+def symmetry_pairs(replay: Replay, legs: Legs) -> dict[str, tuple[float, float]]:
+    """Left and right of what a gait is judged by, each in one unit."""
+    found, both = steps(replay, legs), {leg.side: leg for leg in legs}
+    pairs: dict[str, Mapping[str, float]] = {
+        "step length": {s: float(np.mean([step.length for step in found if step.side == s])) for s in SIDES},
+        "step time": {s: float(np.mean([step.duration for step in found if step.side == s])) for s in SIDES},
+        "stance": {s: float(np.mean(leg.share(leg.standing))) for s, leg in both.items()},
+        "peak ground force": {s: float(np.mean(leg.over_cycle(leg.load).rows.max(axis=1))) for s, leg in both.items()},
+    }
+    for one in matched_signals(replay, legs):
+        pairs[f"range of {one.name}"] = {s: float(np.ptp(cycle.mean)) for s, cycle in one.cycles.items()}
+    for name, muscle in _sided_muscles(replay).items():
+        activity = {s: both[s].over_cycle(replay.trajectory[f"{muscle[s]}.activation"]).mean for s in SIDES}
+        pairs[f"activity of {name.replace('_', ' ')}"] = {s: float(np.mean(mean)) for s, mean in activity.items()}
+    return {name: (pair["l"], pair["r"]) for name, pair in pairs.items() if pair.keys() == SIDES.keys()}
+
+
+def _symmetry(replay: Replay, legs: Legs) -> Drawing:
+    found = symmetry(symmetry_pairs(replay, legs))
+    names = list(found)[::-1]
+    figure, (panel,) = panels(height=0.4 + 0.24 * len(names))
+    values = np.nan_to_num([found[name] for name in names])
+    panel.barh(names, values, color=[_LINE["r" if value > 0 else "l"]["color"] for value in values], height=0.6)
+    panel.axvline(0, color=GREY, linewidth=0.8)
+    widest = max(5.0, 1.1 * float(np.max(np.abs(values))))
+    panel.set_xlim(-widest, widest)
+    panel.set_xlabel(labelled("right more than left", "%"))
+    largest = max(found, key=lambda name: abs(np.nan_to_num(found[name])))
+    caption = (
+        "Symmetry: right minus left in % of their mean, 0 if both legs do the same on average, 200 if one does nothing. "
+        f"The largest is {found[largest]:+.3g} % of {largest}."
+    )
+    return Drawing("gait_symmetry", "Symmetry of both legs", caption, figure)

@@ -1,0 +1,60 @@
+"""Net moments at joints, and their powers, from what was recorded."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from gaitsim.analysis.cycles import Floats, arriving
+from gaitsim.analysis.legs import side_of
+from gaitsim.analysis.replay import Replay
+from gaitsim.model import Model, Part
+
+_STOPS = ("stop_moment", "stop")
+
+
+def joint_moment(replay: Replay, joint: str) -> Floats | None:
+    """Moment in N m that makes a joint's angle grow: of muscles and others who send one, stops, and damping.
+
+    None if it is no hinge, or if muscles of its side pull by tendons whose moments are not recorded.
+    """
+    part = _joint(replay.model, joint)
+    if part is None or hidden_paths(replay.model, side_of(joint)):
+        return None
+    total = sum((arriving(replay, f"{joint}.{name}") for name in _moments(part)), np.zeros(len(replay.times)))
+    for name in _STOPS:
+        if name in part.type.outputs:
+            total = total + replay.trajectory[f"{joint}.{name}"]
+    if "damping" in part.numbers:
+        total = total - replay.model.values()[part.numbers["damping"]] * _velocity(replay, part)
+    return total
+
+
+def joint_power(replay: Replay, joint: str) -> Floats | None:
+    """Power in W that a joint's moment gives to the segments; positive if it speeds them up."""
+    moment, part = joint_moment(replay, joint), _joint(replay.model, joint)
+    return None if moment is None or part is None else moment * _velocity(replay, part)
+
+
+def hidden_paths(model: Model, side: str) -> list[str]:
+    """Paths of a side that tell no moment: MuJoCo's own tendons pull the bodies."""
+    paths = [p for p in model.parts if p.type.kind == "path" and side_of(p.address) == side]
+    told = [p.address for p in paths if any(output.unit == "N m" for output in p.type.outputs.values())]
+    return [p.address for p in paths if not any(t == p.address or t.startswith(f"{p.address}.") for t in told)]
+
+
+def _joint(model: Model, address: str) -> Part | None:
+    """A hinge: a joint with one moment and one angular velocity."""
+    part = next((p for p in model.parts if p.address == address and p.type.kind == "joint"), None)
+    return part if part and len(_moments(part)) == 1 and len(_velocities(part)) == 1 else None
+
+
+def _moments(part: Part) -> list[str]:
+    return [name for name, port in part.type.inputs.items() if port.unit == "N m"]
+
+
+def _velocities(part: Part) -> list[str]:
+    return [name for name, port in part.type.outputs.items() if port.unit == "rad/s"]
+
+
+def _velocity(replay: Replay, part: Part) -> Floats:
+    return replay.trajectory[f"{part.address}.{_velocities(part)[0]}"]
