@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gaitsim.cli.source import open_source, source_of_spec
+from gaitsim.cli.source import source_of_spec, started_from
 from gaitsim.cli.tuning import Tuning
 from gaitsim.errors import Fault, InvalidSpec, Mark, Usage, did_you_mean
 from gaitsim.optimization.algorithms import ALGORITHMS
@@ -19,7 +19,7 @@ from gaitsim.results.manifest import BadResult, changed_versions, is_result, new
 from gaitsim.results.source import Source
 from gaitsim.results.store import create_result
 from gaitsim.results.trust import check_trust
-from gaitsim.results.tuned import problem_of, read_tuned, tuned_path
+from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.schema import SearchSection, optimize_section
 
@@ -50,7 +50,7 @@ def begun(request: Request, root: Path) -> Tuning:
         move = f"gaitsim optimize {request.spec} --resume, or SPEC --from {request.spec}"
         raise Usage(f"{request.spec} is a result; to continue or to start from it: {move}")
     source = source_of_spec(request.spec, request.settings, request.library, tuned=False)
-    source, notices = _started(source, request)
+    source, notices = started_from(source, request.spec, request.origin, request.trust)
     model = source.model()
     if not model.free:
         rule = "nothing is tuned in this spec"
@@ -60,7 +60,8 @@ def begun(request: Request, root: Path) -> Tuning:
         move = "add one, such as objective: {use: objective/maximize, value: {from: a metric}}"
         raise InvalidSpec(Fault(f"this spec has no objective; {move}.", Mark(str(request.spec))))
     search = _search_of(source, request)
-    algorithm = ALGORITHMS[search["algorithm"]](problem_of(model, search["spread_factor"]), search["seed"], search["population"])
+    problem = problem_of(model, search["spread_factor"])
+    algorithm = ALGORITHMS[search["algorithm"]](problem, search["seed"], search["population"])
     search["population"] = algorithm.population
     mode: Mode = "normal" if request.mode == "normal" else "rapid"
     each = episode_models(source.document, source.library, source.name)
@@ -152,30 +153,6 @@ def _search_of(source: Source, request: Request) -> dict[str, Any]:
         raise Usage(f"--algorithm {found['algorithm']}: there is no such algorithm. {hint}")
     _check_least({name: found[name] for name in _LEAST})
     return found
-
-
-def _started(source: Source, request: Request) -> tuple[Source, list[str]]:
-    """The source started where `--from` says, and what matched."""
-    if request.origin is None:
-        return source, []
-    if request.origin == "tuned":
-        path = tuned_path(request.spec)
-        if not path.is_file():
-            raise Usage(f"--from tuned: there is no {path}; make it with optimize --adopt.")
-        where, values = str(path), read_tuned(path)[1]
-    else:
-        where = request.origin
-        if not is_result(Path(where)):
-            raise Usage(f"--from {where}: this is no result; write tuned, or a folder of gaitsim results list.")
-        values = dict(open_source(Path(where), None, None, trusted=request.trust).starts)
-    addresses = [f.address for f in source.model().free]
-    matched = [a for a in addresses if a in values]
-    if not matched:
-        known = ", ".join(values) or "nothing"
-        raise Usage(f"--from {request.origin}: none of its values ({known}) is tuned here.")
-    rest = [a for a in addresses if a not in values]
-    notice = f"start from {where}: {', '.join(matched)}" + (f"; not found there: {', '.join(rest)}" if rest else "")
-    return replace(source, starts={a: values[a] for a in matched}), [notice]
 
 
 def _newest(spec: Path, root: Path) -> Path:

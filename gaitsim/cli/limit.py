@@ -11,6 +11,8 @@ from gaitsim.cli import console
 from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
 
 if TYPE_CHECKING:
+    from dataclasses import replace
+
     from gaitsim.analysis.limits import Hunt, Limit
 
 _FINEST = 1e-6
@@ -48,16 +50,23 @@ def limit(
 
     Example: gaitsim limit specs/walking_geyer2010_perturbed.yaml --vary push.strength='0 N:400 N'
     """
+    from dataclasses import replace
+
     from gaitsim.analysis.limits import Hunt, Limit, until_of
-    from gaitsim.cli.products import started_from
-    from gaitsim.cli.source import open_source
+    from gaitsim.cli.source import open_source, started_from
     from gaitsim.errors import Usage
     from gaitsim.optimization.limit import Bracket
+    from gaitsim.results.manifest import is_result
     from gaitsim.spec.study import span, variants
 
     _check_numbers(points, tolerance)
     limits = [Limit(*span(text), Bracket(points, tolerance)) for text in vary]
     source = open_source(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)
+    if origin is not None:
+        if is_result(spec):
+            raise Usage(f"--from {origin}: {spec} is a result, which has its own values; name a spec, or drop --from.")
+        source, notices = started_from(replace(source, notices=()), spec, origin, trust)
+        source = replace(source, notices=tuple(notices))
     rows = variants(source.document, [])
     if len(rows) > 1:
         raise Usage(f"{spec} is a study of {len(rows)} runs; take one with --candidate, or drop it: --set study=null.")
@@ -71,3 +80,60 @@ def limit(
     folder = None if no_save else _saved(hunt)
     _report(hunt, folder, json)
     return 0
+
+
+def _check_numbers(points: int, tolerance: float) -> None:
+    from gaitsim.errors import Usage
+
+    if points < 2:
+        raise Usage(f"--points {points}: a scan has at least 2 values, the two ends.")
+    if not _FINEST <= tolerance <= 1:
+        raise Usage(f"--tolerance {tolerance:g}: this is a part of the range, from {_FINEST:g} to 1, such as 0.01.")
+
+
+def _saved(hunt: Hunt) -> Path:
+    from gaitsim.compiler.mjcf import assemble
+    from gaitsim.results.store import save_run
+
+    model = hunt.models[0]
+    xml = assemble(model, model.values()).xml
+    return save_run(RESULTS, hunt.source.bundle(hunt.models), model, xml, hunt.mode, hunt.rows)
+
+
+def _report(hunt: Hunt, folder: Path | None, json: bool) -> None:
+    if json:
+        rows = [_data(limit, hunt) for limit in hunt.limits]
+        console.give_json({"limits": rows, "mode": hunt.mode, "result": str(folder) if folder else None})
+        return
+    columns = ["address", "from", "to", "last that holds", "first that does not", "which ends by", "runs"]
+    console.give_table(columns, [_row(limit, hunt) for limit in hunt.limits])
+    for limit in hunt.limits:
+        if limit.first is None:
+            console.say(f"{limit.address}: it holds up to {limit.at(1)}; to find a limit, go further.")
+        if limit.beyond:
+            tried = ", ".join(limit.beyond)
+            console.say(f"{limit.address}: beyond its first limit it holds again at {tried}; there is no one limit.")
+    if folder:
+        console.say(f"saved in {folder}; see a run: gaitsim run {folder} --candidate NUMBER")
+
+
+def _row(limit: Limit, hunt: Hunt) -> tuple[str, ...]:
+    ending = hunt.until.said(limit.ending) if limit.ending else "-"
+    runs = str(len(limit.outcomes))
+    return limit.address, limit.at(0), limit.at(1), limit.last, limit.first or "-", ending, runs
+
+
+def _data(limit: Limit, hunt: Hunt) -> dict[str, Any]:
+    return {
+        "address": limit.address,
+        "from": limit.at(0),
+        "to": limit.at(1),
+        "last": limit.last,
+        "first": limit.first,
+        "ending": hunt.until.said(limit.ending) if limit.ending else None,
+        "beyond": limit.beyond,
+        "runs": [
+            {"value": limit.at(share), "holds": limit.bracket.held[share], "ending": hunt.until.said(outcome)}
+            for share, outcome in sorted(limit.outcomes.items())
+        ],
+    }

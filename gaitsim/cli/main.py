@@ -10,7 +10,7 @@ from typing import Annotated
 import typer
 
 from gaitsim import __version__
-from gaitsim.cli import analyze, check, cite, console, library, new, optimize, results, run, schema, show, view
+from gaitsim.cli import analyze, check, cite, console, library, limit, new, optimize, results, run, schema, show, view
 from gaitsim.errors import ExitCode, GaitsimError
 
 app = typer.Typer(
@@ -22,6 +22,7 @@ app = typer.Typer(
 )
 app.command("run")(run.run)
 app.command("optimize")(optimize.optimize)
+app.command("limit")(limit.limit)
 app.command("analyze")(analyze.analyze)
 app.command("view")(view.view)
 app.command("check")(check.check)

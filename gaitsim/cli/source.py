@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,18 +11,59 @@ if TYPE_CHECKING:
 
 
 def source_of_spec(spec: Path, settings: list[str] | None, folders: list[Path] | None, tuned: bool) -> Source:
-    """A spec, started at its tuned values if there are some and they are wanted."""
+    """A spec, started at its tuned values if there are some and they are wanted.
+
+    A variant without its own starts at those of the nearest parent that has some, if it tunes the same numbers,
+    or fewer, from the same starts within the same bounds.
+    """
     from gaitsim.cli.options import open_library, read_document
     from gaitsim.results.source import Source
     from gaitsim.results.tuned import read_tuned, tuned_path
+    from gaitsim.spec.inheritance import parents
 
-    document, library = read_document(spec, settings), open_library(spec, folders)
-    beside = tuned_path(spec)
-    if not (tuned and beside.is_file()):
-        return Source(document, library, spec.stem, {})
-    result, values = read_tuned(beside)
-    notice = f"tuned values from {beside} ({result}); --start ignores them"
-    return Source(document, library, spec.stem, values, (notice,))
+    source = Source(read_document(spec, settings), open_library(spec, folders), spec.stem, {})
+    owner = next((path for path in (spec, *parents(spec)) if tuned_path(path).is_file()), None) if tuned else None
+    if owner is None or not (owner == spec or _tunes_what(source, owner, folders)):
+        return source
+    result, values = read_tuned(tuned_path(owner))
+    notice = f"tuned values from {tuned_path(owner)} ({result}); --start ignores them"
+    return replace(source, starts=values, notices=(notice,))
+
+
+def _tunes_what(source: Source, parent: Path, folders: list[Path] | None) -> bool:
+    """Whether all that a source tunes is tuned alike in the spec that it extends."""
+    from gaitsim.cli.options import read_model
+
+    alike = {(f.address, f.low, f.high, f.start) for f in read_model(parent, None, folders).free}
+    return alike >= {(f.address, f.low, f.high, f.start) for f in source.model().free}
+
+
+def started_from(source: Source, spec: Path, origin: str | None, trusted: bool) -> tuple[Source, list[str]]:
+    """The source of a spec started where `--from` says, and what matched. Errors: Usage, BadResult, Untrusted."""
+    from gaitsim.errors import Usage
+    from gaitsim.results.manifest import is_result
+    from gaitsim.results.tuned import read_tuned, tuned_path
+
+    if origin is None:
+        return source, []
+    if origin == "tuned":
+        path = tuned_path(spec)
+        if not path.is_file():
+            raise Usage(f"--from tuned: there is no {path}; make it with optimize --adopt.")
+        where, values = str(path), read_tuned(path)[1]
+    else:
+        where = origin
+        if not is_result(Path(where)):
+            raise Usage(f"--from {where}: this is no result; write tuned, or a folder of gaitsim results list.")
+        values = dict(open_source(Path(where), None, None, trusted=trusted).starts)
+    addresses = [f.address for f in source.model().free]
+    matched = [a for a in addresses if a in values]
+    if not matched:
+        known = ", ".join(values) or "nothing"
+        raise Usage(f"--from {origin}: none of its values ({known}) is tuned here.")
+    rest = [a for a in addresses if a not in values]
+    notice = f"start from {where}: {', '.join(matched)}" + (f"; not found there: {', '.join(rest)}" if rest else "")
+    return replace(source, starts={a: values[a] for a in matched}), [notice]
 
 
 def open_source(

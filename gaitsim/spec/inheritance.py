@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Set
+from collections.abc import Callable, Iterator, Set
 from pathlib import Path
 
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, Usage
@@ -61,6 +61,13 @@ def with_parents(
     for child in children:
         result = merged(result, child)
     return result
+
+
+def parents(path: Path) -> Iterator[Path]:
+    """The files that a spec extends, the nearest first; of a spec that `with_parents` has read."""
+    while isinstance(parent := document.read(path).entries.get("extends"), Scalar):
+        path = path.parent / str(parent.value)
+        yield path
 
 
 def split_setting(text: str, origin: str = "--set") -> tuple[str, str]:
