@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import GREY
+from gaitsim.model import Connection
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -35,16 +36,18 @@ def arriving(replay: Replay, port: str) -> Floats:
     if not senders:
         default = part.type.inputs[name].default or 0.0
         return np.full(len(times), values[part.constants[name]] if name in part.constants else default)
-    total = np.zeros(len(times))
-    for connection in senders:
-        sent = replay.trajectory[connection.source]
-        delay = 0.0 if connection.delay is None else values[connection.delay]
-        if delay == 0 or not len(times):
-            total += sent
-            continue
-        before = sent[0] if connection.initial is None else values[connection.initial]
-        total += np.interp(times - delay, times, sent, left=before if times[0] == 0 else np.nan)
-    return total
+    return sum((sent(replay, connection) for connection in senders), np.zeros(len(times)))
+
+
+def sent(replay: Replay, connection: Connection) -> Floats:
+    """What arrives of one sender, delayed as it was; nan where it was sent before what is looked at."""
+    times, signal = replay.times, replay.trajectory[connection.source]
+    values = replay.model.values()
+    delay = 0.0 if connection.delay is None else values[connection.delay]
+    if delay == 0 or not len(times):
+        return signal
+    before = signal[0] if connection.initial is None else values[connection.initial]
+    return np.interp(times - delay, times, signal, left=before if times[0] == 0 else np.nan)
 
 
 def stance(replay: Replay, address: str = "") -> Floats | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from gaitsim.analysis.convergence import convergence_figures, tuned_figures
 from gaitsim.analysis.drawing import Figures
 from gaitsim.analysis.energies import balance, energy_figures
+from gaitsim.analysis.gait import gait_figures
 from gaitsim.analysis.hopping import hopping_figures
 from gaitsim.analysis.motion import motion_figures
 from gaitsim.analysis.muscles import muscle_figures
@@ -16,6 +17,7 @@ FIGURES: tuple[Figures, ...] = (
     convergence_figures,
     tuned_figures,
     hopping_figures,
+    gait_figures,
     energy_figures,
     muscle_figures,
     motion_figures,

@@ -19,6 +19,7 @@ from gaitsim.units import parse_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Legs = Sequence[Leg]
 _LINE = {"l": {"color": PALETTE[0], "linestyle": LINES[0]}, "r": {"color": PALETTE[1], "linestyle": LINES[1]}}
@@ -71,7 +72,6 @@ def _draw_matched(panel: Axes, legs: Legs, matched: Matched, unit: str) -> None:
     for leg in legs:
         if leg.side in matched.cycles:
             draw_cycle(panel, leg, matched.cycles[leg.side], factor)
-    panel.set_ylabel(labelled(matched.name.removesuffix(" moment"), unit))
 
 
 def compared_words(matched: Matched) -> str:
@@ -90,6 +90,12 @@ def compared_words(matched: Matched) -> str:
     return f"{matched.name.capitalize()}: {'; '.join(words)}."
 
 
+def _name_lines(figure: Figure, panel: Axes) -> None:
+    """One legend for all panels, above them."""
+    handles, labels = panel.get_legend_handles_labels()
+    figure.legend(handles, labels, loc="outside upper right", ncols=len(labels), frameon=False, fontsize=FONT)
+
+
 def _people_words(matched: Sequence[Matched]) -> str:
     bands = any(one.norm.deviation is not None for one in matched)
     sources = ", ".join(dict.fromkeys(one.norm.recorded_by for one in matched if one.norm.recorded_by))
@@ -104,6 +110,7 @@ def _angles(replay: Replay, legs: Legs) -> list[Drawing]:
     figure, axes = panels(len(matched), 1, height=1.9, share=True)
     for panel, one in zip(axes, matched, strict=True):
         _draw_matched(panel, legs, one, one.norm.unit)
+        panel.set_ylabel(labelled(one.name, one.norm.unit))
     above(axes[0])
     axes[-1].set_xlabel(labelled("gait cycle", "%"))
     turning = all(quantity(one.norm.unit) == "angle" for one in matched)
@@ -133,9 +140,9 @@ def _forces(legs: Legs) -> Drawing:
     forward.set_xlabel(labelled("gait cycle", "%"))
     above(vertical)
     caption = (
-        f"Force of the ground on each foot in body weights, along the ground's normal and forwards along the ground: "
-        f"{_said(legs)}. {_SPREAD} Dotted: take-off. {'; '.join(words)} (highest: mean over strides of each one's peak; "
-        "braking and propulsion of the mean stride)."
+        "Force of the ground on each foot in body weights, along the ground's normal and forwards along the ground: "
+        f"{_said(legs)}. {_SPREAD} Dotted: take-off. {'; '.join(words)} (highest: mean over strides of each one's "
+        "peak; braking and propulsion of the mean stride)."
     )
     return Drawing("gait_forces", "Ground reaction forces over the gait cycle", caption, figure)
 
@@ -150,11 +157,11 @@ def _moments(replay: Replay, legs: Legs) -> list[Drawing]:
     for row, one in enumerate(matched):
         moment, power = axes[2 * row], axes[2 * row + 1]
         _draw_matched(moment, legs, one, "N m/kg")
+        moment.set_title(one.name.removesuffix(" moment"), loc="left", fontsize=FONT)
+        moment.set_ylabel(labelled("moment", "N m/kg"))
         works = _draw_power(power, replay, legs, joints[one.name.split()[0]])
         words.append(f"{compared_words(one)} Work a stride: {works}.")
-    axes[0].set_title("moment", loc="left", fontsize=FONT)
-    axes[1].set_title("power", loc="left", fontsize=FONT)
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=3, frameon=False, fontsize=FONT)
+    _name_lines(figure, axes[0])
     for panel in axes[-2:]:
         panel.set_xlabel(labelled("gait cycle", "%"))
     caption = (
@@ -175,9 +182,10 @@ def _draw_power(panel: Axes, replay: Replay, legs: Legs, joint: Followed) -> str
         each = power / mass(replay, leg)
         draw_cycle(panel, leg, leg.over_cycle(each))
         seconds = float(np.mean([end - begin for begin, end in leg.strides]))
-        given, taken = (float(np.mean(leg.share(part))) * seconds for part in (np.maximum(each, 0), np.minimum(each, 0)))
+        given, taken = (seconds * float(np.mean(leg.share(one))) for one in (np.maximum(each, 0), np.minimum(each, 0)))
         words.append(f"{leg.name} {given:+.2g} and {taken:+.2g} J/kg")
-    panel.set_ylabel(labelled(joint.name.split()[0], "W/kg"))
+    panel.set_title(joint.name.split()[0], loc="left", fontsize=FONT)
+    panel.set_ylabel(labelled("power", "W/kg"))
     return ", ".join(words)
 
 
@@ -191,13 +199,14 @@ def _activations(replay: Replay, legs: Legs) -> list[Drawing]:
             draw_cycle(panel, leg, leg.over_cycle(replay.trajectory[f"{names[name][leg.side]}.activation"]))
         panel.set_title(name.replace("_", " "), loc="left", fontsize=FONT)
         panel.set_ylim(0, 1.02)
-        panel.set_ylabel(labelled("activation", "1"))
     for unused in axes[len(names) :]:
         unused.set_axis_off()
     for panel in axes[: len(names)][-2:]:
-        panel.set_xlabel(labelled("gait cycle", "%"))
         panel.tick_params(labelbottom=True)
-    figure.legend(*axes[0].get_legend_handles_labels(), loc="outside upper right", ncols=2, frameon=False, fontsize=FONT)
+    for panel in axes[::2]:
+        panel.set_ylabel(labelled("activation", "1"))
+    figure.supxlabel(labelled("gait cycle", "%"), fontsize=FONT)
+    _name_lines(figure, axes[0])
     caption = f"Activation of each muscle: {_said(legs)}. {_SPREAD} Dotted: take-off."
     return [Drawing("gait_activations", "Muscle activations over the gait cycle", caption, figure)]
 
@@ -236,9 +245,9 @@ def _steps(replay: Replay, legs: Legs) -> Drawing:
     lengths, cadences = ([getattr(step, word) for step in found] for word in ("length", "cadence"))
     stances = 100 * np.concatenate([leg.share(leg.standing) for leg in legs])
     caption = (
-        f"Each step ends with the touchdown of the leg of its colour. Over all: step length {_spread(lengths)} m, cadence "
-        f"{_spread(cadences)} steps a minute, stance {_spread(stances)} % of the stride, double support {_spread(both)} "
-        "% (mean ± standard deviation). A length is the distance from the other foot's print to this one's."
+        f"Each step ends with the touchdown of the leg of its colour. Over all: step length {_spread(lengths)} m, "
+        f"cadence {_spread(cadences)} steps a minute, stance {_spread(stances)} % of the stride, double support "
+        f"{_spread(both)} % (mean ± standard deviation). A length is that from the other foot's print to this one's."
     )
     return Drawing("gait_steps", "Steps", caption, figure)
 
@@ -260,8 +269,8 @@ def _margin(replay: Replay, legs: Legs) -> list[Drawing]:
     above(panel)
     landed = [100 * float(np.mean(leg.over_cycle(found).rows[:, 0])) for leg in legs]
     caption = (
-        "By how far the foremost point that stands is ahead of the extrapolated center of mass, x + v / sqrt(g / l) with l "
-        f"its mean height (Hof and others 2005): {_said(legs)}. {_SPREAD} At touchdown: "
+        "By how far the foremost point that stands is ahead of the extrapolated center of mass, x + v / sqrt(g / l) "
+        f"with l its mean height (Hof and others 2005): {_said(legs)}. {_SPREAD} At touchdown: "
         f"{' and '.join(f'{leg.name} {at:.3g} cm' for leg, at in zip(legs, landed, strict=True))}. "
         "Below 0 the next step must catch the fall forwards, as people's does at touchdown."
     )
@@ -290,6 +299,7 @@ def _symmetry(replay: Replay, legs: Legs) -> Drawing:
     names = list(found)[::-1]
     figure, (panel,) = panels(height=0.4 + 0.24 * len(names))
     values = np.nan_to_num([found[name] for name in names])
+    panel.set_axisbelow(True)
     panel.barh(names, values, color=[_LINE["r" if value > 0 else "l"]["color"] for value in values], height=0.6)
     panel.axvline(0, color=GREY, linewidth=0.8)
     widest = max(5.0, 1.1 * float(np.max(np.abs(values))))
@@ -297,7 +307,7 @@ def _symmetry(replay: Replay, legs: Legs) -> Drawing:
     panel.set_xlabel(labelled("right more than left", "%"))
     largest = max(found, key=lambda name: abs(np.nan_to_num(found[name])))
     caption = (
-        "Symmetry: right minus left in % of their mean, 0 if both legs do the same on average, 200 if one does nothing. "
-        f"The largest is {found[largest]:+.3g} % of {largest}."
+        "Symmetry: right minus left in % of their mean, 0 if both legs do the same on average, 200 if one does "
+        f"nothing. The largest is {found[largest]:+.3g} % of {largest}."
     )
     return Drawing("gait_symmetry", "Symmetry of both legs", caption, figure)

@@ -127,11 +127,12 @@ class Hunt:
     models: list[Model] = field(default_factory=list)
     rows: list[Row] = field(default_factory=list)
 
-    def run(self, hear: Callable[[int], None]) -> None:
-        """Find all limits; `hear` is told how many runs are done.
+    def run(self, hear: Callable[[int, int], None]) -> None:
+        """Find all limits; `hear` is told how many runs are done, and of how many at most.
 
         Errors: SimulationFailed if a range does not hold at its first end; InvalidSpec, InvalidComponent.
         """
+        most = sum(limit.bracket.most for limit in self.limits)
         while asked := [(limit, share) for limit in self.limits for share in limit.bracket.ask()]:
             models = [self._model(limit, share) for limit, share in asked]
             self.models += models
@@ -139,8 +140,9 @@ class Hunt:
                 limit.outcomes[share] = outcome
                 limit.bracket.tell(share, self.until.holds(outcome, limit.outcomes[0.0]))
                 self.rows.append(({**self.settings, limit.address: limit.at(share)}, outcome))
-                hear(len(self.rows))
+                hear(len(self.rows), most)
             self._check_begun()
+        hear(most, most)
 
     def _model(self, limit: Limit, share: float) -> Model:
         return self.source.model(override(self.document, limit.address, limit.at(share), "--vary"))

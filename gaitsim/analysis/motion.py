@@ -8,10 +8,12 @@ import numpy as np
 
 from gaitsim.analysis.cycles import shade_stance, shown_part, thinned
 from gaitsim.analysis.drawing import Drawing
+from gaitsim.analysis.legs import on_side, side_of
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import above, labelled, panels, quantity
 
 _LINES, _PANELS = 4, 4  # in a panel, in a figure
+_MANY = 32  # signals of controllers; of more, --plot draws those that are asked for
 _SHOWN = {"rad": ("deg", np.degrees(1.0)), "rad/s": ("deg/s", np.degrees(1.0))}
 
 Signals = Sequence[tuple[str, str]]  # address and unit
@@ -21,10 +23,10 @@ def motion_figures(replay: Replay) -> list[Drawing]:
     """Joint coordinates, and controllers' signals, over the last cycles or the whole run."""
     if len(replay.times) < 2:
         return []
-    coordinates = _outputs(replay, "joint", ("angle", "position"))
+    coordinates, sent = _outputs(replay, "joint", ("angle", "position")), _outputs(replay, "controller", ())
     return [
         *_figures(replay, "joints", "Coordinates of the joints", coordinates),
-        *_figures(replay, "controllers", "Signals of the controllers", _outputs(replay, "controller", ())),
+        *(_figures(replay, "controllers", "Signals of the controllers", sent) if len(sent) <= _MANY else []),
     ]
 
 
@@ -40,7 +42,9 @@ def _outputs(replay: Replay, kind: str, names: Sequence[str]) -> Signals:
 
 
 def _figures(replay: Replay, name: str, title: str, signals: Signals) -> list[Drawing]:
-    part, said = shown_part(replay)
+    contact = next((p.address for p in replay.model.parts if p.type.kind == "contact" and side_of(p.address)), "")
+    leg = on_side(contact, "r")
+    part, said = shown_part(replay, address=leg)
     if len(part.times) < 2:
         part, said = replay, "the whole run"
     groups = list(_panels(signals))
@@ -54,19 +58,20 @@ def _figures(replay: Replay, name: str, title: str, signals: Signals) -> list[Dr
             for address, _ in group:
                 panel.plot(*thinned(part.times, factor * part.trajectory[address]), label=address)
             panel.set_ylabel(labelled(quantity(group[0][1]), unit))
-            shaded = shade_stance(panel, part) or shaded
+            shaded = shade_stance(panel, part, leg) or shaded
             above(panel)
             panel.margins(x=0)
         axes[-1].set_xlabel(labelled("time", "s"))
         of = f" ({number} of {len(pages)})" if len(pages) > 1 else ""
+        grey = " Grey: stance of the right leg." if leg else " Grey: stance."
         listed = ", ".join(address for group in page for address, _ in group)
-        caption = f"{listed} over {said}.{' Grey: stance.' if shaded else ''}"
+        caption = f"{listed} over {said}.{grey if shaded else ''}"
         found.append(Drawing(f"{name}_{number}" if len(pages) > 1 else name, title + of, caption, figure))
     return found
 
 
 def _panels(signals: Signals) -> Iterator[Signals]:
-    """Signals of one unit together, a few in each panel."""
-    for unit in dict.fromkeys(unit for _, unit in signals):
-        same = [signal for signal in signals if signal[1] == unit]
+    """Signals of one unit and one side together, a few in each panel."""
+    for key in dict.fromkeys((unit, side_of(address)) for address, unit in signals):
+        same = [signal for signal in signals if (signal[1], side_of(signal[0])) == key]
         yield from (same[i : i + _LINES] for i in range(0, len(same), _LINES))

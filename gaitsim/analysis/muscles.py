@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from fnmatch import fnmatchcase
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gaitsim.analysis.cycles import Floats, arriving, last_cycles, shade_stance, shown_part, thinned
 from gaitsim.analysis.drawing import Drawing
+from gaitsim.analysis.muscle_overview import overview_figures
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import FONT, GREY, PALETTE, above, labelled, panels
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+
+
+_MANY = 4  # a model with more muscles gets overviews
 
 
 @dataclass(frozen=True)
@@ -78,13 +83,23 @@ def net_work(force: Floats, length: Floats) -> float:
 
 
 def muscle_figures(replay: Replay) -> list[Drawing]:
-    """Two figures for each muscle: its signals over time, and its work loops."""
+    """Two figures for each muscle: its signals over time, and its work loops; of many, overviews instead."""
     if len(replay.times) < 2:
         return []
-    found = []
-    for muscle in muscles(replay):
-        found += [_over_time(replay, muscle.address), *_loops(replay, muscle.address)]
-    return found
+    addresses = [muscle.address for muscle in muscles(replay)]
+    if len(addresses) > _MANY:
+        return overview_figures(replay)
+    return [drawing for address in addresses for drawing in figures_of(replay, address)]
+
+
+def figures_of(replay: Replay, address: str) -> list[Drawing]:
+    """One muscle's signals over time, and its work loops."""
+    return [_over_time(replay, address), *_loops(replay, address)]
+
+
+def matching_muscles(replay: Replay, text: str) -> list[str]:
+    """Addresses of the muscles that an address or a pattern such as 'leg_*.soleus' names."""
+    return [muscle.address for muscle in muscles(replay) if fnmatchcase(muscle.address, text)]
 
 
 def _one(replay: Replay, address: str) -> Muscle:

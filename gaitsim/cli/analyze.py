@@ -198,13 +198,19 @@ def _looked_at(replay: Replay, window: tuple[float | None, float | None]) -> Rep
 def _asked(
     replays: list[Replay], plot: list[str], against: str | None, return_maps: list[str]
 ) -> list[Callable[[], list[Drawing]]]:
-    """What --plot and --return-map draw."""
-    from gaitsim.analysis import plots
+    """What --plot and --return-map draw; --plot of a muscle is its own figures."""
+    from gaitsim.analysis import muscles, plots
 
     def map_of(text: str) -> list[Drawing]:
         return [plots.return_map(replays, text)]
 
-    drawn = [partial(plots.against_time, replays, text) for text in plot if against is None]
+    def over_time(text: str) -> list[Drawing]:
+        own = [(replay, address) for replay in replays for address in muscles.matching_muscles(replay, text)]
+        if own and len(plots.lacking(replays, text)) == len(replays):
+            return [drawing for replay, address in own for drawing in muscles.figures_of(replay, address)]
+        return plots.against_time(replays, text)
+
+    drawn = [partial(over_time, text) for text in plot if against is None]
     drawn += [partial(plots.against_signal, replays, text, against) for text in plot if against is not None]
     return [*drawn, *(partial(map_of, text) for text in return_maps)]
 
@@ -293,6 +299,8 @@ def _tell(replays: list[Replay], products: Products, json: bool) -> None:
 
 
 def _data(replay: Replay) -> dict[str, Any]:
+    from gaitsim.analysis.gait_norms import norm_numbers
+
     outcome = replay.outcome
     return {
         "result": str(replay.path),
@@ -301,6 +309,7 @@ def _data(replay: Replay) -> dict[str, Any]:
         "reason": outcome.reason or None,
         "score": outcome.score,
         "measures": dict(outcome.metrics),
+        "norms": norm_numbers(replay),
     }
 
 

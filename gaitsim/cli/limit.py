@@ -11,8 +11,6 @@ from gaitsim.cli import console
 from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
 
 if TYPE_CHECKING:
-    from dataclasses import replace
-
     from gaitsim.analysis.limits import Hunt, Limit
 
 _FINEST = 1e-6
@@ -22,7 +20,7 @@ def limit(
     spec: Spec,
     vary: Annotated[
         list[str],
-        typer.Option(metavar="ADDRESS=FROM:TO", help="What goes how far, from a value at which all is well; repeatable."),
+        typer.Option(metavar="ADDRESS=FROM:TO", help="What goes how far, from where all is well; repeatable."),
     ],
     until: Annotated[
         str | None,
@@ -48,7 +46,7 @@ def limit(
 
     Each --vary is looked through alone: a scan over its range, then bisection where runs end first.
 
-    Example: gaitsim limit specs/walking_geyer2010_perturbed.yaml --vary push.strength='0 N:400 N'
+    Example: gaitsim limit specs/walking_geyer2010_perturbed.yaml --vary push.strength='0 N:1000 N'
     """
     from dataclasses import replace
 
@@ -74,9 +72,7 @@ def limit(
     for notice in dict.fromkeys([*source.notices, *model.notices]):
         console.say(notice)
     hunt = Hunt(source, rows[0].document, rows[0].settings, limits, until_of(until, model), mode.value)
-    hear = console.progress("runs")
-    hunt.run(lambda done: hear(done, done + 1))
-    hear(1, 1)
+    hunt.run(console.progress("runs"))
     folder = None if no_save else _saved(hunt)
     _report(hunt, folder, json)
     return 0

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 
 
@@ -16,6 +17,11 @@ class Bracket:
     points: int
     tolerance: float
     held: dict[float, bool] = field(default_factory=dict)
+
+    @property
+    def most(self) -> int:
+        """How many shares are tried at most."""
+        return self.points + max(0, math.ceil(-math.log2((self.points - 1) * self.tolerance)))
 
     def ask(self) -> list[float]:
         """The shares to try next, in any order; none when all is known."""

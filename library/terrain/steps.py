@@ -9,8 +9,9 @@ def whole(number):
 class Steps(Component):
     """Ground at height 0 up to a first edge, then steps of one height and depth; level, or all of it on a slope.
 
-    Positions and heights are along the slope and its normal. A step is a jump of the height. Contacts with a force of their own do not feel the riser: a point that
-    slides across an edge is below the upper ground at once. MuJoCo's contact does feel it.
+    Positions and heights are along the slope and its normal. A step is a jump of the height. Contacts with a
+    force of their own do not feel the riser: a point that slides across an edge is below the upper ground at
+    once. MuJoCo's contact does feel it.
     """
 
     first = Parameter("m", "Where the first edge is.", bounds=(-100, 1000))
