@@ -5,7 +5,7 @@ from __future__ import annotations
 from gaitsim.analysis.convergence import convergence_figures, tuned_figures
 from gaitsim.analysis.drawing import Figures
 from gaitsim.analysis.energies import balance, energy_figures
-from gaitsim.analysis.gait import gait_figures
+from gaitsim.analysis.gait import gait_figures, lacking_gait
 from gaitsim.analysis.hopping import hopping_figures
 from gaitsim.analysis.motion import motion_figures
 from gaitsim.analysis.muscles import muscle_figures
@@ -31,7 +31,8 @@ def missing(replay: Replay) -> list[str]:
         instants = "one instant only" if count else "no instant"
         why = f"; it {replay.ending}" if replay.ending else ""
         return [f"{replay.label} has {instants}, so nothing is drawn over time{why}."]
+    found = lacking_gait(replay)
     if balance(replay) is None:
         move = "add energy: {use: sensor/mechanical_energy} to its parts"
-        return [f"{replay.label} reports no kinetic and potential energy, so none is drawn; {move}."]
-    return []
+        found.append(f"{replay.label} reports no kinetic and potential energy, so none is drawn; {move}.")
+    return found

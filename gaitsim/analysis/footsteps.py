@@ -84,7 +84,7 @@ def margin(replay: Replay, legs: Sequence[Leg]) -> Floats | None:
     contacts = [contact for leg in legs for contact in leg.contacts]
     reached = [np.where(signals[f"{c}.load"] > 0, signals[f"{c}.position"], -np.inf) for c in contacts]
     front = np.max(reached, axis=0)
-    return np.where(np.isfinite(front), front, np.nan) - ahead
+    return np.asarray(np.where(np.isfinite(front), front, np.nan) - ahead, dtype=np.float64)
 
 
 def symmetry_index(left: float, right: float) -> float:

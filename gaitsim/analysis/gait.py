@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -11,8 +11,8 @@ from gaitsim.analysis.cycles import Floats
 from gaitsim.analysis.drawing import Drawing
 from gaitsim.analysis.footsteps import double_support, margin, steps, symmetry
 from gaitsim.analysis.gait_norms import Followed, Matched, followed, later, matched_moments, matched_signals
-from gaitsim.analysis.joint_moments import joint_power
-from gaitsim.analysis.legs import PERCENT, SIDES, Cycle, Leg, mass, on_side, two_legs, unsided
+from gaitsim.analysis.joint_moments import hidden_paths, joint_power
+from gaitsim.analysis.legs import PERCENT, SIDES, Cycle, Leg, has_two_legs, mass, on_side, two_legs, unsided
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import FONT, GREY, LINES, PALETTE, above, labelled, panels, quantity
 from gaitsim.units import parse_unit
@@ -22,7 +22,10 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Legs = Sequence[Leg]
-_LINE = {"l": {"color": PALETTE[0], "linestyle": LINES[0]}, "r": {"color": PALETTE[1], "linestyle": LINES[1]}}
+_LINE: dict[str, dict[str, Any]] = {
+    "l": {"color": PALETTE[0], "linestyle": LINES[0]},
+    "r": {"color": PALETTE[1], "linestyle": LINES[1]},
+}
 _SPREAD = "Bands of a leg's colour: one standard deviation over its strides."
 
 
@@ -40,6 +43,22 @@ def gait_figures(replay: Replay) -> list[Drawing]:
         *_margin(replay, legs),
         _symmetry(replay, legs),
     ]
+
+
+def lacking_gait(replay: Replay) -> list[str]:
+    """Which figures a walker lacks that others have, and why; words for its reader."""
+    if not has_two_legs(replay.model):
+        return []
+    if two_legs(replay) is None:
+        return [f"{replay.label} takes fewer than two strides with each leg, so nothing is drawn over the gait cycle."]
+    found = []
+    if not followed(replay):
+        move = "add a measure/gait_curve for each joint"
+        found.append(f"{replay.label} does not say which angles people have too, so none is compared; {move}.")
+    hidden = [path for side in SIDES for path in hidden_paths(replay.model, side)]
+    if hidden:
+        found.append(f"{replay.label}: {hidden[0]} tells no joint moment, so neither moments nor powers are drawn.")
+    return found
 
 
 def _said(legs: Legs) -> str:
@@ -227,7 +246,11 @@ def _steps(replay: Replay, legs: Legs) -> Drawing:
     found = steps(replay, legs)
     for leg in legs:
         mine = [step for step in found if step.side == leg.side]
-        dots = {"color": _LINE[leg.side]["color"], "marker": "o" if leg.side == "l" else "s", "markersize": 4}
+        dots: dict[str, Any] = {
+            "color": _LINE[leg.side]["color"],
+            "marker": "o" if leg.side == "l" else "s",
+            "markersize": 4,
+        }
         at = [step.at for step in mine]
         length.plot(at, [step.length for step in mine], label=leg.name, linewidth=0.8, **dots)
         pace.plot(at, [step.cadence for step in mine], linewidth=0.8, **dots)
@@ -253,7 +276,7 @@ def _steps(replay: Replay, legs: Legs) -> Drawing:
 
 
 def _spread(values: Sequence[float] | Floats) -> str:
-    return f"{np.mean(values):.3g} ± {np.std(values):.2g}" if len(values) else "–"
+    return f"{np.mean(values):.3g} ± {round(float(np.std(values)), 6):.2g}" if len(values) else "–"
 
 
 def _margin(replay: Replay, legs: Legs) -> list[Drawing]:
@@ -272,7 +295,7 @@ def _margin(replay: Replay, legs: Legs) -> list[Drawing]:
         "By how far the foremost point that stands is ahead of the extrapolated center of mass, x + v / sqrt(g / l) "
         f"with l its mean height (Hof and others 2005): {_said(legs)}. {_SPREAD} At touchdown: "
         f"{' and '.join(f'{leg.name} {at:.3g} cm' for leg, at in zip(legs, landed, strict=True))}. "
-        "Below 0 the next step must catch the fall forwards, as people's does at touchdown."
+        "Below 0 the next step must catch the fall forwards."
     )
     return [Drawing("gait_margin", "Margin to falling over the gait cycle", caption, figure)]
 

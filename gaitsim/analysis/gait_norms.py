@@ -76,7 +76,8 @@ def library_of(replay: Replay) -> Library:
 
 def followed(replay: Replay) -> list[Followed]:
     """What the gait_curve measures of a model follow, each once for both sides."""
-    model, library, found = replay.model, library_of(replay), {}
+    model, library = replay.model, library_of(replay)
+    found: dict[tuple[str, str], Followed] = {}
     for part in model.parts:
         if part.type.reference != _GAIT_CURVE:
             continue

@@ -10,6 +10,7 @@ import numpy as np
 
 from gaitsim.analysis.cycles import Floats, arriving, shade_stance, shown_part, thinned
 from gaitsim.analysis.drawing import Drawing
+from gaitsim.analysis.legs import two_legs
 from gaitsim.analysis.reference import return_map_of
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.return_map import FixedPoint, fixed_point
@@ -152,12 +153,12 @@ def _with_free_start(model: Model, coordinate: str) -> Model:
 
 
 def hopping_figures(replay: Replay) -> list[Drawing]:
-    """The return map, the apexes, and the force of the ground; none for a model that measures no hops."""
+    """The return map, the apexes, and the force of the ground, which a walker has over its gait cycle."""
     if len(replay.times) < 2:
         return []
     hops = hops_of(replay)
     if hops is None:
-        return _ground_force(replay)
+        return [] if two_legs(replay) else _ground_force(replay)
     apexes = [_apexes(hops)] if hops.apexes else []
     return [*_return_map(replay, hops), *apexes, *_ground_force(replay)]
 

@@ -43,9 +43,11 @@ def hidden_paths(model: Model, side: str) -> list[str]:
 
 
 def _joint(model: Model, address: str) -> Part | None:
-    """A hinge: a joint with one moment and one angular velocity."""
+    """A hinge: a joint with one moment and one angular velocity, that slides nowhere."""
     part = next((p for p in model.parts if p.address == address and p.type.kind == "joint"), None)
-    return part if part and len(_moments(part)) == 1 and len(_velocities(part)) == 1 else None
+    if part is None or any(output.unit == "m" for output in part.type.outputs.values()):
+        return None
+    return part if len(_moments(part)) == 1 and len(_velocities(part)) == 1 else None
 
 
 def _moments(part: Part) -> list[str]:

@@ -102,12 +102,17 @@ def two_legs(replay: Replay) -> tuple[Leg, Leg] | None:
     with _l, or _r.
     """
     contacts = {side: _contacts(replay.model, side) for side in SIDES}
-    if len(replay.times) < 2 or not all(contacts.values()):
+    if len(replay.times) < 2 or not has_two_legs(replay.model):
         return None
     left, right = (_leg(replay, side, contacts[side]) for side in SIDES)
     settled = [_from(leg, SETTLE) for leg in (left, right)] if replay.times[0] < SETTLE else [left, right]
     chosen = settled if min(len(leg.strides) for leg in settled) >= _LEAST_STRIDES else [left, right]
     return (chosen[0], chosen[1]) if min(len(leg.strides) for leg in chosen) >= _LEAST_STRIDES else None
+
+
+def has_two_legs(model: Model) -> bool:
+    """Whether both sides of a model can touch the ground."""
+    return all(_contacts(model, side) for side in SIDES)
 
 
 def _contacts(model: Model, side: str) -> tuple[str, ...]:

@@ -15,7 +15,7 @@ from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode
 from gaitsim.spec.document import Mapping as Document
 from gaitsim.spec.inheritance import override, split_setting
-from gaitsim.spec.quantity import mismatch, unknown_unit
+from gaitsim.spec.quantity import mismatch, needed, unknown_unit
 from gaitsim.spec.study import Span
 from gaitsim.units import UnknownUnit, parse_quantity, parse_unit
 
@@ -67,7 +67,7 @@ def until_of(text: str | None, model: Model) -> Until:
     except UnknownUnit as error:
         raise Usage(f"--until {text}: {unknown_unit(str(error))}") from error
     if quantity is None:
-        raise Usage(f'--until {text}: "{value}" is no number.')
+        raise Usage(f'--until {text}: "{value}" is no number; {needed(model.metrics[metric])}.')
     wrong = mismatch(quantity, unit)
     if wrong:
         raise Usage(f"--until {text}: {wrong}")
@@ -153,7 +153,7 @@ class Hunt:
         for limit in self.limits:
             if not limit.bracket.held[0.0]:
                 mark = Mark(f"--vary {limit.address}={limit.at(0)}:{limit.at(1)}")
-                rule = f"at {limit.at(0)} it does not hold already ({self.until.said(limit.outcomes[0.0])})"
+                rule = f"at {limit.at(0)}, where it begins, it does not hold ({self.until.said(limit.outcomes[0.0])})"
                 faults.append(Fault(f"{rule}; begin where it does.", mark))
         if faults:
             raise SimulationFailed(faults)

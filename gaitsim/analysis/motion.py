@@ -58,14 +58,13 @@ def _figures(replay: Replay, name: str, title: str, signals: Signals) -> list[Dr
             for address, _ in group:
                 panel.plot(*thinned(part.times, factor * part.trajectory[address]), label=address)
             panel.set_ylabel(labelled(quantity(group[0][1]), unit))
-            shaded = shade_stance(panel, part, leg) or shaded
+            shaded = shade_stance(panel, part, group[0][0] if side_of(group[0][0]) else leg) or shaded
             above(panel)
             panel.margins(x=0)
         axes[-1].set_xlabel(labelled("time", "s"))
         of = f" ({number} of {len(pages)})" if len(pages) > 1 else ""
-        grey = " Grey: stance of the right leg." if leg else " Grey: stance."
         listed = ", ".join(address for group in page for address, _ in group)
-        caption = f"{listed} over {said}.{grey if shaded else ''}"
+        caption = f"{listed} over {said}.{' Grey: stance.' if shaded else ''}"
         found.append(Drawing(f"{name}_{number}" if len(pages) > 1 else name, title + of, caption, figure))
     return found
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +20,14 @@ if TYPE_CHECKING:
     _Draw = Callable[[Axes, Replay, Replay, str], None]
 
 _COLUMNS = 2
+_ROW = 0.17  # of a panel's height, for one row of its legend
+_TIGHT: dict[str, Any] = {
+    "frameon": False,
+    "borderpad": 0,
+    "labelspacing": 0.15,
+    "columnspacing": 1,
+    "handlelength": 1.2,
+}
 _LARGEST = 1.5  # of what is drawn of an excitation, either way
 
 
@@ -71,6 +79,7 @@ def _overview(replay: Replay, muscles: list[str], name: str, title: str, what: s
     for panel in axes[: len(muscles)][-_COLUMNS:]:
         panel.tick_params(labelbottom=True)
     figure.supxlabel(labelled("time", "s"), fontsize=FONT)
+    figure.supylabel(labelled("value", "1"), fontsize=FONT)
     caption = (
         f"{', '.join(muscles)} over {said}: {what}.{' Grey: stance.' if shaded else ''} A muscle's own figures come "
         f"with --plot {muscles[0]}."
@@ -86,9 +95,10 @@ def _name_lines(figure: Figure, axes: list[Axes]) -> None:
         return
     for panel, (handles, labels) in zip(axes, named, strict=True):
         if labels:
-            panel.legend(
-                handles, labels, fontsize=FONT - 3, framealpha=0.7, loc="best", borderpad=0.2, labelspacing=0.15
-            )
+            low, high = panel.get_ylim()
+            rows = -(-len(labels) // 2)
+            panel.set_ylim(low, high + _ROW * rows * (high - low))
+            panel.legend(handles, labels, fontsize=FONT - 3, ncols=2, loc="upper right", **_TIGHT)
 
 
 def _draw_signals(panel: Axes, _: Replay, part: Replay, muscle: str) -> None:

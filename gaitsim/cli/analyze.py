@@ -45,7 +45,7 @@ def analyze(
     ],
     plot: Annotated[
         list[str] | None,
-        typer.Option(metavar="PATTERN", help="Draw signals, such as 'leg_*.soleus.force'; repeatable."),
+        typer.Option(metavar="PATTERN", help="Draw signals, such as 'leg_*.soleus.force', or a muscle; repeatable."),
     ] = None,
     against: Annotated[
         str | None, typer.Option(metavar="SIGNAL", help="What --plot is drawn against, instead of time.")

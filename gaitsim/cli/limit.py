@@ -101,7 +101,7 @@ def _report(hunt: Hunt, folder: Path | None, json: bool) -> None:
         rows = [_data(limit, hunt) for limit in hunt.limits]
         console.give_json({"limits": rows, "mode": hunt.mode, "result": str(folder) if folder else None})
         return
-    columns = ["address", "from", "to", "last that holds", "first that does not", "which ends by", "runs"]
+    columns = ["address", "from", "to", "last that holds", "first that does not", "how that ends", "runs"]
     console.give_table(columns, [_row(limit, hunt) for limit in hunt.limits])
     for limit in hunt.limits:
         if limit.first is None:

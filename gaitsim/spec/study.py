@@ -43,7 +43,7 @@ def span(text: str) -> tuple[str, Span]:
     """An address and the values to look through: `push.strength=0 N:200 N`. Errors: Usage."""
     address, values = split_setting(text, "--vary")
     pieces = [piece.strip() for piece in values.split(":")]
-    found = _span(*pieces, text) if len(pieces) == 2 else None
+    found = _span(pieces[0], pieces[1], text) if len(pieces) == 2 else None
     if found is None or found.first == found.last:
         raise Usage(f"--vary {text}: this is from:to, two values that differ, such as push.strength=0 N:200 N.")
     return address, found

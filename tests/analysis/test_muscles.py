@@ -1,10 +1,13 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from gaitsim.analysis.muscles import Muscle, muscle_figures, muscles, net_work, work_done
-from tests.analysis.replays import cut, of_spec
+from tests.analysis.replays import command, cut, of_spec
+from tests.simulation.models import ROOT
 
 
 def test_the_work_of_an_ellipse_is_its_area() -> None:
@@ -88,6 +91,14 @@ def last_hop(replay):  # type: ignore[no-untyped-def]
 def test_a_run_of_a_few_instants(count: int) -> None:
     replay = cut(of_spec("hopping_leg_mass", [("simulate.duration", "0.1 s")]), count)
     assert len(muscle_figures(replay)) == (0 if count < 2 else 2)
+
+
+def test_one_muscle_is_drawn_if_asked_for(tmp_path: Path) -> None:
+    spec, folder = str(ROOT / "specs" / "hopping_leg_mass.yaml"), str(tmp_path)
+    words = ("--set", "simulate.duration=1 s", "--only", "--plot", "ext*r", "--folder", folder)
+    assert command("analyze", spec, *words) == 0
+    made = {path.name for path in (tmp_path / "figures").iterdir()}
+    assert made == {"muscle_extensor.png", "work_loop_extensor.png"}
 
 
 def test_a_model_without_muscles_has_no_such_figures() -> None:

@@ -1,0 +1,260 @@
+"""gaitsim limit: how far numbers can go, on a stone whose fall is known; and the walker's perturbations."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from gaitsim.results.bundle import bundle_starts
+from gaitsim.results.rows import read_rows
+
+from .commands import Said, gaitsim
+
+SPECS = Path(__file__).resolve().parents[2] / "specs"
+# After n steps of semi-implicit Euler the stone has fallen by g dt^2 n (n + 1) / 2.
+STONE = """
+gaitsim: 1
+parts:
+  stone: {use: segment/point_mass, mass: 1 kg}
+  guide: {use: joint/vertical, parent: world, child: stone.center}
+initial: {guide.position: 2 m}
+measures:
+  landed: {use: measure/fall, height: {from: guide.position}, below: 0 m}
+  way: {use: measure/range, signal: {from: guide.position}}
+simulate: {duration: 0.5 s, step: 1 ms}
+"""
+HEIGHT = "initial.guide.position"
+
+
+@pytest.fixture
+def spec(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "stone.yaml"
+    path.write_text(STONE, encoding="utf-8")
+    return path
+
+
+def limits(said: Said) -> list[dict[str, object]]:
+    assert said.code == 0, said.err
+    return list(json.loads(said.out)["limits"])
+
+
+def number(text: object) -> float:
+    return float(str(text).split()[0])
+
+
+def fallen(steps: int) -> float:
+    return 9.81e-6 * steps * (steps + 1) / 2
+
+
+def test_known_limits_in_both_directions_at_once(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    ranges = [f"{HEIGHT}=2 m:0 m", f"{HEIGHT}=130 cm:120 cm", "simulate.duration=0.1 s:1.1 s"]
+    words = [word for text in ranges for word in ("--vary", text)]
+    lower, nearer, longer = limits(gaitsim(capsys, "limit", str(spec), *words, "--tolerance", "0.001", "--json"))
+    for found, scale, exactly in ((lower, 1, 2e-3), (nearer, 0.01, 1e-4)):
+        last, first = scale * number(found["last"]), scale * number(found["first"])
+        # Below 0 after 498 steps is told in the 499th and ends the run in the 500th, its last.
+        assert first < fallen(498) <= last
+        assert last - first <= exactly
+    # Below 0 after 639 steps ends runs of 641 and more; a duration is rounded to whole steps.
+    assert fallen(638) < 2 < fallen(639)
+    assert number(longer["last"]) <= 0.6405 <= number(longer["first"]) <= number(longer["last"]) + 1e-3
+    assert str(lower["ending"]).startswith("landed at 0.49")
+    assert lower["from"] == "2.0 m" and lower["to"] == "0.0 m"
+
+
+def test_the_table(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = gaitsim(capsys, "limit", str(spec), "--vary", f"{HEIGHT}=2 m:1 m", "--points", "3", "--tolerance", "0.25")
+    title, row = (" ".join(line.split()) for line in said.out.splitlines())
+    assert title == "address from to last that holds first that does not how that ends runs"
+    assert row == f"{HEIGHT} 2.0 m 1.0 m 1.25 m 1.0 m landed at 0.453 s 4"
+    assert said.err.startswith("saved in results/")
+
+
+def test_a_range_without_a_limit_is_told(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = gaitsim(capsys, "limit", str(spec), "--vary", f"{HEIGHT}=2 m:4 m", "--no-save")
+    assert said.code == 0
+    assert said.out.splitlines()[1].split() == [HEIGHT, "2.0", "m", "4.0", "m", "4.0", "m", "-", "-", "9"]
+    assert said.err == f"{HEIGHT}: it holds up to 4.0 m; to find a limit, go further.\n"
+
+
+def test_what_holds_again_is_told(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    # Thrown upwards at v, the stone stays within 0.5 m for 0.5 s if g T - sqrt(g) < v < sqrt(g): 1.77 to 3.13 m/s.
+    words = ["--vary", "initial.guide.velocity=0 m/s:6 m/s", "--until", "way=0.5 m", "--points", "7", "--no-save"]
+    said = gaitsim(capsys, "limit", str(spec), *words)
+    told = "beyond its first limit it holds again at 4.0 m/s, 5.0 m/s, 6.0 m/s; there is no one limit."
+    assert said.err == f"initial.guide.velocity: {told}\n"
+    (found,) = limits(gaitsim(capsys, "limit", str(spec), *words, "--json"))
+    assert found["beyond"] == ["4.0 m/s", "5.0 m/s", "6.0 m/s"]
+    assert number(found["last"]) == pytest.approx(1.773, abs=0.06)
+    assert number(found["last"]) < number(found["first"]) <= number(found["last"]) + 0.06
+
+
+@pytest.mark.parametrize(("until", "threshold"), [("way=1 m", 451), ("way=100 cm", 451)])
+def test_until_a_metric_comes_to_a_value(
+    spec: Path, until: str, threshold: int, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["limit", str(spec), "--vary", "simulate.duration=0.1 s:0.6 s", "--until", until, "--tolerance", "0.002"]
+    (found,) = limits(gaitsim(capsys, *words, "--json"))
+    assert number(found["last"]) <= 1e-3 * threshold + 1e-3 and number(found["first"]) >= 1e-3 * threshold - 1e-3
+    assert str(found["ending"]).startswith("way = 1.00")
+
+
+def test_every_run_is_saved_and_reproduced(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--vary", f"{HEIGHT}=2 m:1 m", "--vary", "stone.mass=1 kg:3 kg", "--points", "3"]
+    said = json.loads(gaitsim(capsys, "limit", str(spec), *words, "--json").out)
+    rows = read_rows(Path(said["result"]))
+    assert len(rows) == sum(len(found["runs"]) for found in said["limits"])
+    assert rows[0]["settings"] == {HEIGHT: "2.0 m"} and rows[1]["settings"] == {"stone.mass": "1.0 kg"}
+    verified = gaitsim(capsys, "results", "verify", said["result"])
+    assert verified.code == 0
+    assert f"{len(rows)} of {len(rows)} runs reproduced bit for bit" in verified.out + verified.err
+
+
+def test_a_result_can_be_looked_through(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    folder = json.loads(gaitsim(capsys, "run", str(spec), "--json").out)["result"]
+    (found,) = limits(gaitsim(capsys, "limit", folder, "--vary", f"{HEIGHT}=2 m:1 m", "--no-save", "--json"))
+    assert number(found["last"]) == pytest.approx(1.22, abs=0.01)
+
+
+FINE = ("--vary", "stone.mass=1 kg:2 kg")
+
+
+@pytest.mark.parametrize(
+    ("words", "code", "message"),
+    [
+        (
+            ("--vary", f"{HEIGHT}=-1 m:1 m"),
+            4,
+            f"--vary {HEIGHT}=-1.0 m:1.0 m: at -1.0 m, where it begins, it does not hold (landed at 0.001 s); "
+            "begin where it does.",
+        ),
+        (
+            ("--vary", "stone.mass=1 kg"),
+            2,
+            "--vary stone.mass=1 kg: this is from:to, two values that differ, such as push.strength=0 N:200 N.",
+        ),
+        (
+            ("--vary", "stone.mass=1 kg:2 kg:3"),
+            2,
+            "--vary stone.mass=1 kg:2 kg:3: this is from:to, two values that differ, such as push.strength=0 N:200 N.",
+        ),
+        (
+            ("--vary", "stone.mass=1 kg:1000 g"),
+            2,
+            "--vary stone.mass=1 kg:1000 g: this is from:to, two values that differ, such as push.strength=0 N:200 N.",
+        ),
+        (
+            ("--vary", "stone.mass=1 kg:2 s"),
+            2,
+            "--vary stone.mass=1 kg:2 s: both ends need the same unit, such as 1 ms:5 ms:3.",
+        ),
+        (
+            ("--vary", "stone.mas=1 kg:2 kg"),
+            3,
+            "--vary stone.mas=1.0 kg: stone: segment/point_mass has no mas. Did you mean mass?",
+        ),
+        (
+            (*FINE, "--until", "wag=3"),
+            2,
+            "--until wag=3: wag is no metric of this spec. Did you mean way?",
+        ),
+        (
+            (*FINE, "--until", "way=3"),
+            2,
+            '--until way=3: 3 has no unit; this needs a length, such as "45 cm" (write "3 m").',
+        ),
+        (
+            (*FINE, "--until", "way=far"),
+            2,
+            '--until way=far: "far" is no number; this needs a length, such as "45 cm".',
+        ),
+        (
+            (*FINE, "--set", "landed=null"),
+            2,
+            "no measure of this spec ends a run; say what does: --until METRIC=VALUE, "
+            "or add one such as use: measure/fall.",
+        ),
+        ((*FINE, "--points", "1"), 2, "--points 1: a scan has at least 2 values, the two ends."),
+        (
+            (*FINE, "--tolerance", "0"),
+            2,
+            "--tolerance 0: this is a part of the range, from 1e-06 to 1, such as 0.01.",
+        ),
+        ((*FINE, "--from", "tuned"), 2, "--from tuned: there is no stone.tuned.yaml; make it with optimize --adopt."),
+        (
+            (*FINE, "--set", "study=[{stone.mass: 1 kg}, {stone.mass: 2 kg}]"),
+            2,
+            "stone.yaml is a study of 2 runs; take one with --candidate, or drop it: --set study=null.",
+        ),
+    ],
+)
+def test_what_is_refused(
+    spec: Path, words: tuple[str, ...], code: int, message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = gaitsim(capsys, "limit", spec.name, *words)
+    assert (said.code, said.err.splitlines()[0], said.out) == (code, message, "")
+    assert not Path("results").exists()
+
+
+def test_a_variant_starts_at_the_tuned_values_of_its_parent(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    spec.write_text(STONE.replace("mass: 1 kg", "mass: {value: 1 kg, tune: [0.5 kg, 5 kg]}"), encoding="utf-8")
+    Path("stone.tuned.yaml").write_text("result: results/a\nvalues: {stone.mass: 3 kg}\n", encoding="utf-8")
+    Path("high.yaml").write_text("gaitsim: 1\nextends: stone.yaml\ninitial: {guide.position: 3 m}\n", encoding="utf-8")
+    said = gaitsim(capsys, "limit", "high.yaml", "--vary", f"{HEIGHT}=3 m:1 m", "--json")
+    assert "tuned values from stone.tuned.yaml (results/a); --start ignores them" in said.err
+    assert bundle_starts(Path(json.loads(said.out)["result"])) == {"stone.mass": 3}
+    assert "tuned" not in gaitsim(capsys, "run", "high.yaml", "--no-save", "--start").err
+
+
+@pytest.mark.parametrize(
+    "changed",
+    [
+        "{value: 2 kg, tune: [0.5 kg, 5 kg]}",
+        "{value: 1 kg, tune: [0.5 kg, 4 kg]}",
+    ],
+)
+def test_a_variant_that_tunes_otherwise_starts_anew(
+    spec: Path, changed: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    spec.write_text(STONE.replace("mass: 1 kg", "mass: {value: 1 kg, tune: [0.5 kg, 5 kg]}"), encoding="utf-8")
+    Path("stone.tuned.yaml").write_text("result: results/a\nvalues: {stone.mass: 3 kg}\n", encoding="utf-8")
+    Path("other.yaml").write_text(
+        f"gaitsim: 1\nextends: stone.yaml\nparts: {{stone: {{mass: {changed}}}}}\n", encoding="utf-8"
+    )
+    assert "tuned" not in gaitsim(capsys, "run", "other.yaml", "--no-save").err
+
+
+def test_the_perturbed_walker_is_the_walker_until_it_is_perturbed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    names = ("walking_geyer2010.yaml", "walking_geyer2010_perturbed.yaml")
+    plain, perturbed = (
+        json.loads(gaitsim(capsys, "run", str(SPECS / name), "--start", "--no-save", "--json").out) for name in names
+    )
+    assert perturbed["steps"] == plain["steps"] > 100
+    assert perturbed["metrics"] == plain["metrics"]
+
+
+@pytest.mark.parametrize(
+    "setting",
+    [
+        "push.strength=300 N",
+        "use_for.terrain.angle=2 deg",
+        "use_for.terrain.rise=-2 cm",
+        "felt_lean.standard_deviation=2 deg",
+    ],
+)
+def test_each_perturbation_is_one_setting(
+    setting: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    early = ["--set", "push.onset=0.1 s", "--set", "use_for.terrain.first=5 cm", "--no-save", "--json", "--start"]
+    spec = str(SPECS / "walking_geyer2010_perturbed.yaml")
+    still, moved = (
+        json.loads(gaitsim(capsys, "run", spec, *early, *more).out)["metrics"] for more in ((), ("--set", setting))
+    )
+    assert moved["speed.distance"] != still["speed.distance"]
