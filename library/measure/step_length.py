@@ -11,8 +11,8 @@ class StepLength(Component):
     )
     left = Input("1", "1 while the left leg stands, such as {from: stance_l.in_stance}.")
     right = Input("1", "1 while the right leg stands.")
-    left_position = Input("m", "Forward position of the left heel.")
-    right_position = Input("m", "Forward position of the right heel.")
+    left_position = Input("m", "Forward position of a place of the left foot that is still down when the other lands: its ball.")
+    right_position = Input("m", "Forward position of the same place of the right foot.")
 
     steps = State("1", "Steps since the start.")
     before = State("1", "Whether each leg stood in the last step.", size=2)

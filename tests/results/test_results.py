@@ -86,7 +86,7 @@ def test_list_and_show(begun: Path, command: Any) -> None:
     shown = command("results", "show", str(begun))
     assert "balance.proportional" in shown.out and "2 generations done" in shown.out
     data = command("results", "show", str(begun), "--json").data
-    assert data["search"] == {"algorithm": "cma", "population": 6, "generations": 2, "seed": 3}
+    assert data["search"] == {"algorithm": "cma", "population": 6, "generations": 2, "seed": 3, "spread_factor": 1.0}
 
 
 def test_the_default_population_is_written_down(study: Study, command: Any) -> None:
