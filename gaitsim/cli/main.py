@@ -51,24 +51,31 @@ def _main(
 
 def main(arguments: list[str] | None = None) -> None:
     """Run one command; the exit code tells the kind of failure."""
-    words = sys.argv[1:] if arguments is None else arguments
     try:
-        code = app(args=words, prog_name="gaitsim", standalone_mode=False)
-    except GaitsimError as error:
-        console.say_error(error)
-        if "--json" in words:
-            console.give_json(console.error_data(error))
-        code = error.exit_code
-    except KeyboardInterrupt:
-        console.say("interrupted")
-        code = ExitCode.INTERRUPTED
+        code = _ran(sys.argv[1:] if arguments is None else arguments)
     except BrokenPipeError:
         # The reader of our output is gone (such as head); there is no one left to tell.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = ExitCode.OK
-    except Exception as error:
-        code = _other(error)
     sys.exit(code if isinstance(code, int) else ExitCode.OK)
+
+
+def _ran(words: list[str]) -> object:
+    """What a command returns, or the exit code of its failure."""
+    try:
+        return app(args=words, prog_name="gaitsim", standalone_mode=False)
+    except GaitsimError as error:
+        console.say_error(error)
+        if "--json" in words:
+            console.give_json(console.error_data(error))
+        return error.exit_code
+    except KeyboardInterrupt:
+        console.say("interrupted")
+        return ExitCode.INTERRUPTED
+    except BrokenPipeError:
+        raise
+    except Exception as error:
+        return _other(error)
 
 
 def _other(error: Exception) -> int:

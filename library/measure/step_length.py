@@ -11,7 +11,7 @@ class StepLength(Component):
     )
     left = Input("1", "1 while the left leg stands, such as {from: stance_l.in_stance}.")
     right = Input("1", "1 while the right leg stands.")
-    left_position = Input("m", "Forward position of a place of the left foot that is still down when the other lands: its ball.")
+    left_position = Input("m", "Forward position of what is down of the left foot when the right lands: its ball.")
     right_position = Input("m", "Forward position of the same place of the right foot.")
 
     steps = State("1", "Steps since the start.")
