@@ -116,11 +116,12 @@ def _mark_of(error: Exception, source: str, file: str) -> Mark:
 
 
 def _part_faults(cls: type[Component], marks: Mapping[str, Mark]) -> list[Fault]:
-    """Wiring of inner parts that names ports this component does not have."""
+    """Names that are taken, and wiring of inner parts that names ports this component does not have."""
     inputs = [name for name, d in cls.declarations.items() if isinstance(d, Input)]
     outputs = [name for name, d in cls.declarations.items() if isinstance(d, Output)]
     parameters = {name: d for name, d in cls.declarations.items() if isinstance(d, Parameter)}
-    faults = []
+    rule = "is the name of a function of components; choose another word for this declaration."
+    faults = [Fault(f"{name} {rule}", marks[name]) for name in cls.declarations if name in FUNCTIONS]
     for name, part in cls.declarations.items():
         if isinstance(part, Part | Link):
             wrong = [mine for mine, _ in part.reads if mine not in inputs]
