@@ -33,7 +33,9 @@ def optimize(
     mode: Annotated[ModeName | None, typer.Option(help="rapid, or normal for debugging.")] = None,
     smoke: Annotated[bool, typer.Option("--smoke", help="Two generations of four: does it all work?")] = False,
     resume: Annotated[bool, typer.Option("--resume", help="Continue the newest search of this spec.")] = False,
-    origin: Annotated[str | None, typer.Option("--from", metavar="WHERE", help="Start at tuned, or a result.")] = None,
+    origin: Annotated[
+        str | None, typer.Option("--from", metavar="WHERE", help="Start at tuned, the middle of bounds, or a result.")
+    ] = None,
     adopt: Annotated[bool, typer.Option("--adopt", help="Write the best values beside the spec.")] = False,
     trust: Trust = False,
     settings: Set = None,

@@ -46,7 +46,10 @@ def started_from(source: Source, spec: Path, origin: str | None, trusted: bool) 
 
     if origin is None:
         return source, []
-    if origin == "tuned":
+    free = source.model().free
+    if origin == "middle":
+        where, values = "the middle of all bounds", {f.address: 0.5 * (f.low + f.high) for f in free}
+    elif origin == "tuned":
         path = tuned_path(spec)
         if not path.is_file():
             raise Usage(f"--from tuned: there is no {path}; make it with optimize --adopt.")
@@ -54,9 +57,9 @@ def started_from(source: Source, spec: Path, origin: str | None, trusted: bool) 
     else:
         where = origin
         if not is_result(Path(where)):
-            raise Usage(f"--from {where}: this is no result; write tuned, or a folder of gaitsim results list.")
+            raise Usage(f"--from {where}: this is no result; write tuned, middle, or a folder of gaitsim results list.")
         values = dict(open_source(Path(where), None, None, trusted=trusted).starts)
-    addresses = [f.address for f in source.model().free]
+    addresses = [f.address for f in free]
     matched = [a for a in addresses if a in values]
     if not matched:
         known = ", ".join(values) or "nothing"

@@ -16,6 +16,8 @@ from gaitsim.model import Connection, Model, Part, recorded_signals
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
 
+STARTING_ROUNDS = 3  # a fiber, its delayed length, the reflex and the activation are known after these
+
 
 @dataclass(frozen=True)
 class Layout:

@@ -16,11 +16,11 @@ from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
 
-from gaitsim.compiler.program import Floats, Integers
+from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers
 
 START, OUTPUT, UPDATE = 0, 1, 2
-# What the first round of starting says of inputs that are not there yet is no failure.
-RUNNING, FIRST_ROUND, SECOND_ROUND = 0, 1, 2
+# What an early round of starting says of inputs that are not there yet is no failure.
+RUNNING, LAST_ROUND, EARLY_ROUND = 0, 1, 2
 COMPLETED, STOPPED, RAISED, NOT_FINITE, DIVERGED = 0, 1, 2, 3, 4
 
 _LIBRARY = next(Path(mujoco.__file__).parent.glob("libmujoco.*"))
@@ -169,7 +169,7 @@ def _outputs(
                 status = RAISED
             elif last and not _finite(y, t.y_at[part], t.y_at[part + 1]):
                 status = NOT_FINITE
-        if status != COMPLETED and moment != FIRST_ROUND:
+        if status != COMPLETED and moment != EARLY_ROUND:
             return status, part, stage
     return COMPLETED, 0, 0
 
@@ -184,10 +184,11 @@ def _read(t: Tables, y: Floats) -> None:
 def _start(
     t: Tables, at: Addresses, u: Floats, x: Floats, y: Floats, buffer: Floats, dt: float
 ) -> tuple[int, int, int]:
-    """Start all parts in two rounds: one so that there is something to read, one with all inputs known."""
+    """Start all parts in rounds, so that what goes in circles (a fiber, its reflex, its activation) is read."""
     _read(t, y)
     failure = (COMPLETED, 0, 0)
-    for moment in (FIRST_ROUND, SECOND_ROUND):
+    for i in range(STARTING_ROUNDS):
+        moment = LAST_ROUND if i == STARTING_ROUNDS - 1 else EARLY_ROUND
         failure = _outputs(moment, t, at, u, x, y, buffer, 0, dt)
         for k in range(t.line_source.size):
             sent = t.line_initial[k]

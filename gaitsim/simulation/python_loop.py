@@ -15,7 +15,7 @@ import mujoco
 import numpy as np
 
 from gaitsim.compiler.mjcf import tie_place
-from gaitsim.compiler.program import Floats, Program
+from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Program
 from gaitsim.parts.load import function_of
 from gaitsim.simulation.body import Body
 from gaitsim.simulation.ending import Ending
@@ -106,13 +106,13 @@ class _Run:
         return Ending(done, stopper, failure, self.p, self.x, rows)
 
     def _start(self) -> None:
-        """Start all parts in two rounds: one so that there is something to read, one with all inputs known."""
+        """Start all parts in rounds, as native code does."""
         self._read()
-        with np.errstate(all="ignore"):
-            self._outputs(0, starting=True, lenient=True)
-        self._fill_delays()
-        self._outputs(0, starting=True)
-        self._fill_delays()
+        for i in range(STARTING_ROUNDS):
+            early = i < STARTING_ROUNDS - 1
+            with np.errstate(all="ignore") if early else contextlib.nullcontext():
+                self._outputs(0, starting=True, lenient=early)
+            self._fill_delays()
 
     def _fill_delays(self) -> None:
         """Before the start, a delayed signal was what it is at the start."""

@@ -12,7 +12,8 @@ class GaitPhase(Component):
     swing -> stance when its own load exceeds the threshold; stance -> trailing when the other leg lands
     after it; trailing -> stance if the other leg lifts off again; any -> swing when its own load is
     gone. Trailing is the double support (DSup) of Geyer & Herr (2010). Two legs that land in one step
-    trail neither. A phase is known one step after the loads that decide it.
+    trail neither. A phase is known one step after the loads that decide it. A leg that is said to stand at
+    the start (`initial: {<address>.phase: 1}`) stands until it has been loaded and unloaded.
     """
 
     threshold = Parameter(
@@ -21,6 +22,7 @@ class GaitPhase(Component):
     load = Input("1", "Load on this leg in body weights.")
     opposite_load = Input("1", "Load on the other leg in body weights.", default=0)
     phase = State(levels=("swing", "stance", "trailing"), doc="Phase of the leg.")
+    loaded = State("1", "1 while the leg's own load is above the threshold.")
     opposite_stands = State("1", "1 while the other leg stands.")
     lifted = State("1", "1 in the instant after take-off.")
     landed = State("1", "1 in the instant after touchdown.")
@@ -47,7 +49,8 @@ class GaitPhase(Component):
 
     @staticmethod
     def start(p, u, x):
-        x.phase = 1 if u.load > p.threshold else 0
+        x.loaded = 1.0 if u.load > p.threshold else 0.0
+        x.phase = 1 if x.loaded > 0.5 else 0
         x.opposite_stands = 1.0 if u.opposite_load > p.threshold else 0.0
         x.lifted = 0.0
         x.landed = 0.0
@@ -62,7 +65,9 @@ class GaitPhase(Component):
 
     @staticmethod
     def update(p, u, x, y, dt):
-        stood, stands = x.phase > 0.5, u.load > p.threshold
+        loaded = u.load > p.threshold
+        stood = x.phase > 0.5
+        stands = loaded or (stood and x.loaded < 0.5)
         opposite_stood, opposite_stands = x.opposite_stands > 0.5, u.opposite_load > p.threshold
         if not stands:
             x.phase = 0
@@ -72,4 +77,5 @@ class GaitPhase(Component):
             x.phase = 2
         x.lifted = begins(not stood, not stands)
         x.landed = begins(stood, stands)
+        x.loaded = 1.0 if loaded else 0.0
         x.opposite_stands = 1.0 if opposite_stands else 0.0

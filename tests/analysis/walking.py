@@ -20,6 +20,7 @@ Floats = NDArray[np.float64]
 SPEC = ROOT / "specs" / "walking_geyer2010.yaml"
 STEP, STRIDE, STANCE = 0.005, 1.2, 0.6  # s, s, share of the stride
 WEIGHT = 80 * 9.81  # N
+FOOT = 0.2  # m: from heel to ball
 LATE = {"r": 0.0, "l": 0.5}  # touchdowns of a side, in strides
 PRINT = {"r": 0.0, "l": 0.65}  # m: of the first footprint; the right foot steps 0.75 m, the left 0.65 m
 TIMES = STEP * np.arange(2401)
@@ -49,16 +50,17 @@ def position(side: str) -> Floats:
 
 
 def walk(signals: Mapping[str, Floats | float], used: Model | None = None) -> Replay:
-    """A run with these signals; loads and places of the heels are the gait's own, all others 0."""
+    """A run with these signals; the heels' loads and the places of heels and balls are the gait's own, all others 0."""
     chosen = used or model()
     recorded = recorded_signals(chosen)
     columns = {signal.address: i for i, signal in enumerate(recorded)}
     values = np.zeros((len(TIMES), len(recorded)))
     for side in ("l", "r"):
-        heel = f"leg_{side}.heel.sphere"
+        heel = f"leg_{side}.heel"
         values[:, columns[f"{heel}.load"]] = on_ground(side)
         values[:, columns[f"{heel}.force"]] = WEIGHT * on_ground(side)
         values[:, columns[f"{heel}.position"]] = position(side)
+        values[:, columns[f"leg_{side}.ball.position"]] = position(side) + FOOT
     for address, signal in signals.items():
         values[:, columns[address]] = signal
     trajectory = Trajectory(TIMES, tuple(columns), tuple(s.unit for s in recorded), values)

@@ -10,7 +10,13 @@ from gaitsim.simulation.run import Mode
 
 
 def played(
-    reference: str, signals: Mapping[str, Sequence[float]], mode: Mode, /, dt: float = 1e-3, **values: float
+    reference: str,
+    signals: Mapping[str, Sequence[float]],
+    mode: Mode,
+    /,
+    dt: float = 1e-3,
+    initial: Mapping[str, float] | None = None,
+    **values: float,
 ) -> dict[str, list[float]]:
     """The outputs of a part at each instant of its inputs: start once, then output and update in turn."""
     kind = primitive(reference)
@@ -19,6 +25,8 @@ def played(
     tables.put(samples[0])
     if "start" in kind.functions:
         assert not tables.call("start", mode)
+    for name, value in (initial or {}).items():
+        setattr(tables.x, name, value)
     found: dict[str, list[float]] = {name: [] for name in kind.outputs}
     for sample in samples:
         tables.put(sample)

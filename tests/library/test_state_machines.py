@@ -54,6 +54,13 @@ def test_a_leg_alone_swings_and_stands(mode: Mode) -> None:
 
 
 @modes
+def test_a_leg_said_to_stand_stands_until_it_was_loaded_and_unloaded(mode: Mode) -> None:
+    found = played("controller/gait_phase", {"load": [0.0, 0.0, 0.5, 0.5, 0.0, 0.0]}, mode, initial={"phase": 1})
+    assert found["in_stance"] == [1, 1, 1, 1, 1, 0]
+    assert not any(found["touchdown"]) and found["takeoff"] == [0, 0, 0, 0, 0, 1]
+
+
+@modes
 def test_landing_together_leaves_no_leg_behind(mode: Mode) -> None:
     both = [0.0, 0.5, 0.5, 0.5]
     found = played("controller/gait_phase", {"load": both, "opposite_load": both}, mode)

@@ -121,6 +121,15 @@ def test_a_search_starts_where_another_ended(begun: Path, study: Study, command:
     assert journal(Path(third.data["result"]))[0]["score"] == best["score"]
 
 
+def test_a_search_from_the_middle_of_all_bounds(study: Study, command: Any) -> None:
+    ended = command("optimize", "spec.yaml", *SMALL, "--from", "middle", "--json")
+    assert "start from the middle of all bounds: balance.proportional," in ended.err
+    folder = Path(ended.data["result"])
+    rows = [line.split(",") for line in (folder / "parameters.csv").read_text().splitlines()]
+    middles = [(float(row[2]) + float(row[3])) / 2 for row in rows[1:]]
+    assert len(middles) == 3 and journal(folder)[0]["x"] == pytest.approx(middles)
+
+
 def test_a_start_from_elsewhere_says_what_was_not_found(begun: Path, study: Study, command: Any) -> None:
     text = (study.folder / "spec.yaml").read_text().replace("trap: {use", "snare: {use")
     (study.folder / "other.yaml").write_text(text)
