@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from gaitsim.errors import Mark, SimulationFailed
@@ -198,6 +198,11 @@ def _value(number: Number, before: list[float], chosen: Sequence[float]) -> floa
 def metric_names(part: Part) -> dict[str, str]:
     """A measure's metrics: its own name -> the name in the outcome."""
     return {name: part.address if name == "value" else f"{part.address}.{name}" for name in part.type.metrics}
+
+
+def headline_metrics(names: Collection[str]) -> list[str]:
+    """Of metrics those that bear their measure's name, and all of a measure that has none such."""
+    return [name for name in names if name.rpartition(".")[0] not in names]
 
 
 def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> dict[str, str]:

@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from gaitsim.analysis.convergence import tuned_in
+from gaitsim.analysis.draws import Drawn, draws_of, summaries
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import labelled, shown_unit
 from gaitsim.analysis.sweep import study_of
@@ -90,11 +91,16 @@ def tuned_table(replay: Replay) -> Table | None:
 
 
 def study_table(replay: Replay) -> Table | None:
-    """The rows of a study: what was set, how it ended, and every metric in SI; None if none can be read."""
+    """The rows of a study: what was set, how it ended, and every metric; of draws, what became of every metric.
+
+    None if none can be read.
+    """
     try:
-        study = study_of(replay)
+        study, drawn = study_of(replay), draws_of(replay)
     except BadResult:
         return None
+    if drawn is not None:
+        return _draws_table(drawn, replay.model.metrics)
     if study is None:
         return None
     names = [name for name in replay.model.metrics if np.isfinite(study.column(name)).any()]
@@ -106,6 +112,15 @@ def study_table(replay: Replay) -> Table | None:
     )
     first = len(study.varied)
     return Table(columns, rows, frozenset(range(len(columns))) - {0, first})
+
+
+def _draws_table(drawn: Drawn, units: Mapping[str, str]) -> Table:
+    """Every metric over all draws: mean, least, greatest."""
+    rows = tuple(
+        (each.name, shown(each.mean), shown(each.least), shown(each.greatest), shown_unit(units[each.name]))
+        for each in summaries(drawn.metrics)
+    )
+    return Table(("metric", "mean", "least", "greatest", "unit"), rows, frozenset({1, 2, 3}))
 
 
 def origin(replay: Replay) -> list[tuple[str, str]]:

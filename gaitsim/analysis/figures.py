@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from gaitsim.analysis.convergence import convergence_figures, tuned_figures
 from gaitsim.analysis.drawing import Figures
+from gaitsim.analysis.draws import draws_figures
 from gaitsim.analysis.energies import balance, energy_figures
 from gaitsim.analysis.gait import gait_figures, lacking_gait
 from gaitsim.analysis.hopping import hopping_figures
@@ -14,6 +15,7 @@ from gaitsim.analysis.sweep import sweep_figures
 
 FIGURES: tuple[Figures, ...] = (
     sweep_figures,
+    draws_figures,
     convergence_figures,
     tuned_figures,
     hopping_figures,

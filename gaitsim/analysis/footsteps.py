@@ -11,6 +11,7 @@ import numpy as np
 from gaitsim.analysis.cycles import Floats
 from gaitsim.analysis.legs import Leg, unsided
 from gaitsim.analysis.replay import Replay
+from gaitsim.model import Model
 
 _CENTER = "sensor/center_of_mass"
 _FLAT = "terrain/flat"
@@ -74,9 +75,8 @@ def margin(replay: Replay, legs: Sequence[Leg]) -> Floats | None:
     is needed not to fall forwards. Nan in flight; None unless the model has a sensor/center_of_mass and
     its ground is flat.
     """
-    sensor = next((p.address for p in replay.model.parts if p.type.reference == _CENTER), None)
-    grounds = {p.type.reference for p in replay.model.parts if p.type.kind == "terrain"}
-    if sensor is None or not grounds <= {_FLAT}:
+    sensor = _center(replay.model)
+    if sensor is None or not _flat(replay.model):
         return None
     signals = replay.trajectory
     pace = np.sqrt(replay.model.simulate.gravity / np.mean(signals[f"{sensor}.height"]))
@@ -85,6 +85,19 @@ def margin(replay: Replay, legs: Sequence[Leg]) -> Floats | None:
     reached = [np.where(signals[f"{c}.load"] > 0, signals[f"{c}.position"], -np.inf) for c in contacts]
     front = np.max(reached, axis=0)
     return np.asarray(np.where(np.isfinite(front), front, np.nan) - ahead, dtype=np.float64)
+
+
+def lacks_center(model: Model) -> bool:
+    """Whether a margin to falling is missing only for want of a sensor/center_of_mass."""
+    return _center(model) is None and _flat(model)
+
+
+def _center(model: Model) -> str | None:
+    return next((p.address for p in model.parts if p.type.reference == _CENTER), None)
+
+
+def _flat(model: Model) -> bool:
+    return {p.type.reference for p in model.parts if p.type.kind == "terrain"} <= {_FLAT}
 
 
 def symmetry_index(left: float, right: float) -> float:

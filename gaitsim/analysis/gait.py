@@ -9,24 +9,22 @@ import numpy as np
 
 from gaitsim.analysis.cycles import Floats
 from gaitsim.analysis.drawing import Drawing
-from gaitsim.analysis.footsteps import double_support, margin, steps, symmetry
+from gaitsim.analysis.footsteps import double_support, lacks_center, margin, steps, symmetry
+from gaitsim.analysis.gait_muscles import activation_figures, metabolic_figures, sided_muscles
 from gaitsim.analysis.gait_norms import Followed, Matched, followed, later, matched_moments, matched_signals
-from gaitsim.analysis.joint_moments import hidden_paths, joint_power
-from gaitsim.analysis.legs import PERCENT, SIDES, Cycle, Leg, has_two_legs, mass, on_side, two_legs, unsided
+from gaitsim.analysis.gait_panels import LINE, SPREAD, draw_cycle, draw_people, name_lines, said
+from gaitsim.analysis.joint_moments import hidden_paths, joint_power, joint_work
+from gaitsim.analysis.keypoints import FORWARDS, PEAKS_BY, POWERS, VERTICAL, draw_peaks, name_peaks
+from gaitsim.analysis.legs import SIDES, Leg, has_two_legs, mass, on_side, two_legs
+from gaitsim.analysis.pressure import pressure_figures
 from gaitsim.analysis.replay import Replay
-from gaitsim.analysis.style import FONT, GREY, LINES, PALETTE, above, labelled, panels, quantity
+from gaitsim.analysis.style import FONT, GREY, above, labelled, panels, quantity
 from gaitsim.units import parse_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
 
 Legs = Sequence[Leg]
-_LINE: dict[str, dict[str, Any]] = {
-    "l": {"color": PALETTE[0], "linestyle": LINES[0]},
-    "r": {"color": PALETTE[1], "linestyle": LINES[1]},
-}
-_SPREAD = "Bands of a leg's colour: one standard deviation over its strides."
 
 
 def gait_figures(replay: Replay) -> list[Drawing]:
@@ -37,8 +35,10 @@ def gait_figures(replay: Replay) -> list[Drawing]:
     return [
         *_angles(replay, legs),
         _forces(legs),
+        *pressure_figures(replay, legs),
         *_moments(replay, legs),
-        *_activations(replay, legs),
+        *activation_figures(replay, legs),
+        *metabolic_figures(replay, legs),
         _steps(replay, legs),
         *_margin(replay, legs),
         _symmetry(replay, legs),
@@ -55,39 +55,18 @@ def lacking_gait(replay: Replay) -> list[str]:
     if not followed(replay):
         move = "add a measure/gait_curve for each joint"
         found.append(f"{replay.label} does not say which angles people have too, so none is compared; {move}.")
+    if lacks_center(replay.model):
+        move = "add center: {use: sensor/center_of_mass} to its parts"
+        found.append(f"{replay.label} does not tell its center of mass, so no margin to falling is drawn; {move}.")
     hidden = [path for side in SIDES for path in hidden_paths(replay.model, side)]
     if hidden:
         found.append(f"{replay.label}: {hidden[0]} tells no joint moment, so neither moments nor powers are drawn.")
     return found
 
 
-def _said(legs: Legs) -> str:
-    """Which strides are meant."""
-    counts = " and ".join(f"{len(leg.strides)} strides of the {leg.name} leg" for leg in legs)
-    return f"mean of {counts}, from {min(leg.touchdowns[0] for leg in legs):.3g} s on, from touchdown to touchdown"
-
-
-def draw_cycle(panel: Axes, leg: Leg, cycle: Cycle, factor: float = 1.0) -> None:
-    """Mean and band over the gait cycle, and a thin line where the leg lifts off."""
-    style = _LINE[leg.side]
-    mean, deviation = factor * cycle.mean, abs(factor) * cycle.deviation
-    panel.fill_between(PERCENT, mean - deviation, mean + deviation, color=style["color"], alpha=0.18, linewidth=0)
-    panel.plot(PERCENT, mean, label=leg.name, **style)
-    lift = 100 * float(np.mean(leg.share(leg.standing)))
-    panel.axvline(lift, color=style["color"], linestyle=":", linewidth=0.9)
-    panel.set_xlim(0, 100)
-
-
-def _draw_people(panel: Axes, matched: Matched, factor: float) -> None:
-    low, high = (factor * edge for edge in matched.norm.band)
-    if matched.norm.deviation is not None:
-        panel.fill_between(PERCENT, low, high, color=GREY, alpha=0.3, linewidth=0)
-    panel.plot(PERCENT, factor * matched.norm.mean, color=GREY, linewidth=1, label="people")
-
-
 def _draw_matched(panel: Axes, legs: Legs, matched: Matched, unit: str) -> None:
     factor = 1 / parse_unit(unit).factor
-    _draw_people(panel, matched, factor)
+    draw_people(panel, matched.norm, factor)
     for leg in legs:
         if leg.side in matched.cycles:
             draw_cycle(panel, leg, matched.cycles[leg.side], factor)
@@ -109,17 +88,11 @@ def compared_words(matched: Matched) -> str:
     return f"{matched.name.capitalize()}: {'; '.join(words)}."
 
 
-def _name_lines(figure: Figure, panel: Axes) -> None:
-    """One legend for all panels, above them."""
-    handles, labels = panel.get_legend_handles_labels()
-    figure.legend(handles, labels, loc="outside upper right", ncols=len(labels), frameon=False, fontsize=FONT)
-
-
 def _people_words(matched: Sequence[Matched]) -> str:
     bands = any(one.norm.deviation is not None for one in matched)
     sources = ", ".join(dict.fromkeys(one.norm.recorded_by for one in matched if one.norm.recorded_by))
     band = " with one standard deviation over subjects" if bands else ""
-    return f"Grey: healthy people's mean{band}{f' ({sources})' if sources else ''}."
+    return f"Green: healthy people's mean{band}{f' ({sources})' if sources else ''}."
 
 
 def _angles(replay: Replay, legs: Legs) -> list[Drawing]:
@@ -135,7 +108,7 @@ def _angles(replay: Replay, legs: Legs) -> list[Drawing]:
     turning = all(quantity(one.norm.unit) == "angle" for one in matched)
     title = "Joint angles over the gait cycle" if turning else "Signals over the gait cycle"
     caption = (
-        f"{', '.join(one.name for one in matched)}: {_said(legs)}. {_SPREAD} Dotted: take-off. "
+        f"{', '.join(one.name for one in matched)}: {said(legs)}. {SPREAD} Dotted: take-off. "
         f"{_people_words(matched)} {' '.join(compared_words(one) for one in matched)} Range and place of the highest "
         "value are the model's minus people's; zeros of hip and ankle differ by 10 to 20 deg between laboratories."
     )
@@ -149,10 +122,13 @@ def _forces(legs: Legs) -> Drawing:
         load, shear = leg.over_cycle(leg.load), leg.over_cycle(leg.shear)
         draw_cycle(vertical, leg, load)
         draw_cycle(forward, leg, shear)
-        highest = float(np.mean(np.max(load.rows, axis=1)))
+        highest = float(np.mean(leg.highest(leg.load)))
         words.append(
             f"{leg.name} at most {highest:.3g}, braking {np.min(shear.mean):.2g}, propulsion {np.max(shear.mean):.2g}"
         )
+    draw_peaks(vertical, VERTICAL)
+    draw_peaks(forward, FORWARDS)
+    name_peaks(vertical)
     vertical.axhline(1, color=GREY, linewidth=0.8, linestyle=":")
     vertical.set_ylabel("vertical (body weights)")
     forward.set_ylabel("forwards (body weights)")
@@ -160,7 +136,8 @@ def _forces(legs: Legs) -> Drawing:
     above(vertical)
     caption = (
         "Force of the ground on each foot in body weights, along the ground's normal and forwards along the ground: "
-        f"{_said(legs)}. {_SPREAD} Dotted: take-off. {'; '.join(words)} (highest: mean over strides of each one's "
+        f"{said(legs)}. {SPREAD} Dotted: take-off. Green: peaks of healthy people at natural speed, level "
+        f"({PEAKS_BY}). {'; '.join(words)} (highest: mean over strides of each one's "
         "peak; braking and propulsion of the mean stride)."
     )
     return Drawing("gait_forces", "Ground reaction forces over the gait cycle", caption, figure)
@@ -180,13 +157,13 @@ def _moments(replay: Replay, legs: Legs) -> list[Drawing]:
         moment.set_ylabel(labelled("moment", "N m/kg"))
         works = _draw_power(power, replay, legs, joints[one.name.split()[0]])
         words.append(f"{compared_words(one)} Work a stride: {works}.")
-    _name_lines(figure, axes[0])
+    name_lines(figure, axes[0])
     for panel in axes[-2:]:
         panel.set_xlabel(labelled("gait cycle", "%"))
     caption = (
-        f"Net joint moments (of muscles, stops and damping) and their powers over body mass: {_said(legs)}. Extension "
-        f"and plantarflexion are positive; power is positive where a joint gives work. {_SPREAD} Dotted: take-off. "
-        f"{_people_words(matched)} {' '.join(words)}"
+        f"Net joint moments (of muscles, stops and damping) and their powers over body mass: {said(legs)}. Extension "
+        f"and plantarflexion are positive; power is positive where a joint gives work. {SPREAD} Dotted: take-off. "
+        f"{_people_words(matched)} Dots: peaks of their powers ({PEAKS_BY}). {' '.join(words)}"
     )
     return [Drawing("gait_moments", "Joint moments and powers over the gait cycle", caption, figure)]
 
@@ -195,50 +172,17 @@ def _draw_power(panel: Axes, replay: Replay, legs: Legs, joint: Followed) -> str
     """A joint's power in W/kg, and in words what it gives and takes in a stride."""
     words = []
     for leg in legs:
-        power = joint_power(replay, on_side(joint.source, leg.side).rpartition(".")[0])
-        if power is None:
+        own = on_side(joint.source, leg.side).rpartition(".")[0]
+        power, works = joint_power(replay, own), joint_work(replay, leg, own)
+        if power is None or works is None:
             continue
-        each = power / mass(replay, leg)
-        draw_cycle(panel, leg, leg.over_cycle(each))
-        seconds = float(np.mean([end - begin for begin, end in leg.strides]))
-        given, taken = (seconds * float(np.mean(leg.share(one))) for one in (np.maximum(each, 0), np.minimum(each, 0)))
+        draw_cycle(panel, leg, leg.over_cycle(power / mass(replay, leg)))
+        given, taken = (float(np.mean(work)) / mass(replay, leg) for work in works)
         words.append(f"{leg.name} {given:+.2g} and {taken:+.2g} J/kg")
+    draw_peaks(panel, POWERS.get(joint.name.split()[0], ()))
     panel.set_title(joint.name.split()[0], loc="left", fontsize=FONT)
     panel.set_ylabel(labelled("power", "W/kg"))
     return ", ".join(words)
-
-
-def _activations(replay: Replay, legs: Legs) -> list[Drawing]:
-    names = _sided_muscles(replay)
-    if not names:
-        return []
-    figure, axes = panels((len(names) + 1) // 2, 2, height=1.3, share=True)
-    for panel, name in zip(axes, names, strict=False):
-        for leg in legs:
-            draw_cycle(panel, leg, leg.over_cycle(replay.trajectory[f"{names[name][leg.side]}.activation"]))
-        panel.set_title(name.replace("_", " "), loc="left", fontsize=FONT)
-        panel.set_ylim(0, 1.02)
-    for unused in axes[len(names) :]:
-        unused.set_axis_off()
-    for panel in axes[: len(names)][-2:]:
-        panel.tick_params(labelbottom=True)
-    for panel in axes[::2]:
-        panel.set_ylabel(labelled("activation", "1"))
-    figure.supxlabel(labelled("gait cycle", "%"), fontsize=FONT)
-    _name_lines(figure, axes[0])
-    caption = f"Activation of each muscle: {_said(legs)}. {_SPREAD} Dotted: take-off."
-    return [Drawing("gait_activations", "Muscle activations over the gait cycle", caption, figure)]
-
-
-def _sided_muscles(replay: Replay) -> dict[str, dict[str, str]]:
-    """Muscles that both sides have: name within the side -> side -> address."""
-    found: dict[str, dict[str, str]] = {}
-    for part in replay.model.parts:
-        if part.type.kind == "muscle":
-            for side in SIDES:
-                if on_side(part.address, side) == part.address:
-                    found.setdefault(unsided(part.address), {})[side] = part.address
-    return {name: pair for name, pair in found.items() if pair.keys() == SIDES.keys()}
 
 
 def _steps(replay: Replay, legs: Legs) -> Drawing:
@@ -247,7 +191,7 @@ def _steps(replay: Replay, legs: Legs) -> Drawing:
     for leg in legs:
         mine = [step for step in found if step.side == leg.side]
         dots: dict[str, Any] = {
-            "color": _LINE[leg.side]["color"],
+            "color": LINE[leg.side]["color"],
             "marker": "o" if leg.side == "l" else "s",
             "markersize": 4,
         }
@@ -293,7 +237,7 @@ def _margin(replay: Replay, legs: Legs) -> list[Drawing]:
     landed = [100 * float(np.mean(leg.over_cycle(found).rows[:, 0])) for leg in legs]
     caption = (
         "By how far the foremost point that stands is ahead of the extrapolated center of mass, x + v / sqrt(g / l) "
-        f"with l its mean height (Hof and others 2005): {_said(legs)}. {_SPREAD} At touchdown: "
+        f"with l its mean height (Hof and others 2005): {said(legs)}. {SPREAD} At touchdown: "
         f"{' and '.join(f'{leg.name} {at:.3g} cm' for leg, at in zip(legs, landed, strict=True))}. "
         "Below 0 the next step must catch the fall forwards."
     )
@@ -307,11 +251,11 @@ def symmetry_pairs(replay: Replay, legs: Legs) -> dict[str, tuple[float, float]]
         "step length": {s: float(np.mean([step.length for step in found if step.side == s])) for s in SIDES},
         "step time": {s: float(np.mean([step.duration for step in found if step.side == s])) for s in SIDES},
         "stance": {s: float(np.mean(leg.share(leg.standing))) for s, leg in both.items()},
-        "peak ground force": {s: float(np.mean(leg.over_cycle(leg.load).rows.max(axis=1))) for s, leg in both.items()},
+        "peak ground force": {s: float(np.mean(leg.highest(leg.load))) for s, leg in both.items()},
     }
     for one in matched_signals(replay, legs):
         pairs[f"range of {one.name}"] = {s: float(np.ptp(cycle.mean)) for s, cycle in one.cycles.items()}
-    for name, muscle in _sided_muscles(replay).items():
+    for name, muscle in sided_muscles(replay).items():
         activity = {s: both[s].over_cycle(replay.trajectory[f"{muscle[s]}.activation"]).mean for s in SIDES}
         pairs[f"activity of {name.replace('_', ' ')}"] = {s: float(np.mean(mean)) for s, mean in activity.items()}
     return {name: (pair["l"], pair["r"]) for name, pair in pairs.items() if pair.keys() == SIDES.keys()}
@@ -323,7 +267,7 @@ def _symmetry(replay: Replay, legs: Legs) -> Drawing:
     figure, (panel,) = panels(height=0.4 + 0.24 * len(names))
     values = np.nan_to_num([found[name] for name in names])
     panel.set_axisbelow(True)
-    panel.barh(names, values, color=[_LINE["r" if value > 0 else "l"]["color"] for value in values], height=0.6)
+    panel.barh(names, values, color=[LINE["r" if value > 0 else "l"]["color"] for value in values], height=0.6)
     panel.axvline(0, color=GREY, linewidth=0.8)
     widest = max(5.0, 1.1 * float(np.max(np.abs(values))))
     panel.set_xlim(-widest, widest)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gaitsim.analysis.cycles import Floats, arriving
-from gaitsim.analysis.legs import side_of
+from gaitsim.analysis.legs import Leg, side_of
 from gaitsim.analysis.replay import Replay
 from gaitsim.model import Model, Part
 
@@ -33,6 +33,15 @@ def joint_power(replay: Replay, joint: str) -> Floats | None:
     """Power in W that a joint's moment gives to the segments; positive if it speeds them up."""
     moment, part = joint_moment(replay, joint), _joint(replay.model, joint)
     return None if moment is None or part is None else moment * _velocity(replay, part)
+
+
+def joint_work(replay: Replay, leg: Leg, joint: str) -> tuple[Floats, Floats] | None:
+    """Work in J that a joint gives, and that it takes, below 0, in each stride of a leg; None as its power."""
+    power = joint_power(replay, joint)
+    if power is None:
+        return None
+    seconds = np.array([end - begin for begin, end in leg.strides])
+    return seconds * leg.share(np.maximum(power, 0)), seconds * leg.share(np.minimum(power, 0))
 
 
 def hidden_paths(model: Model, side: str) -> list[str]:

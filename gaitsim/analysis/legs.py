@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from gaitsim.analysis.cycles import Floats
 from gaitsim.analysis.norms import POINTS, strides
@@ -48,14 +49,30 @@ class Leg:
         """Begin and end of each stride, in s."""
         return list(pairwise(self.touchdowns))
 
+    @property
+    def stances(self) -> list[slice]:
+        """The instants of each stance that begins a stride."""
+        found = []
+        for begin, end in self.strides:
+            first, last = np.searchsorted(self.times, (begin, end))
+            found.append(slice(int(first), int(first + np.argmin(self.standing[first:last]))))
+        return [one for one in found if one.stop > one.start]
+
     def over_cycle(self, values: Floats) -> Cycle:
         """A signal over the strides of this leg."""
         return Cycle(strides(self.times, values, self.touchdowns))
 
     def share(self, values: Floats) -> Floats:
         """Mean of a signal over each stride, such as the share of stance."""
-        inside = [(self.times >= begin) & (self.times < end) for begin, end in self.strides]
-        return np.array([np.mean(values[kept]) for kept in inside], dtype=np.float64)
+        return np.array([np.mean(values[kept]) for kept in self._inside], dtype=np.float64)
+
+    def highest(self, values: Floats) -> Floats:
+        """Highest value of a signal in each stride, of all instants."""
+        return np.array([np.max(values[kept]) for kept in self._inside], dtype=np.float64)
+
+    @property
+    def _inside(self) -> list[NDArray[np.bool_]]:
+        return [(self.times >= begin) & (self.times < end) for begin, end in self.strides]
 
 
 @dataclass(frozen=True)

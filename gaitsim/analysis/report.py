@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 from gaitsim.analysis import facts
 from gaitsim.analysis.drawing import Drawing
 from gaitsim.analysis.figures import missing
+from gaitsim.analysis.gait_numbers import gait_table, norms_table
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import COLUMN
 
@@ -98,6 +99,8 @@ def _run(replay: Replay) -> Mapping[str, Any]:
         "status": outcome.status,
         "ending": replay.ending or f"ran its whole time of {outcome.simulated_seconds:g} s",
         "about": _about(replay),
+        "gait": gait_table(replay),
+        "norms": norms_table(replay),
         "study": facts.study_table(replay),
         "tuned": facts.tuned_table(replay),
         "origin": facts.origin(replay),

@@ -290,6 +290,7 @@ def _tell(replays: list[Replay], products: Products, json: bool) -> None:
     if rows:
         values = ["value"] if len(replays) == 1 else [replay.label for replay in replays]
         console.give_table(["measure", *values, "unit"], rows)
+    _give_gait(replays)
     if products.figures:
         number = len(products.figures)
         console.give(f"{number} figure{'s' if number > 1 else ''} in {products.folder / 'figures'}")
@@ -298,8 +299,20 @@ def _tell(replays: list[Replay], products: Products, json: bool) -> None:
             console.give(str(path))
 
 
+def _give_gait(replays: list[Replay]) -> None:
+    """What the legs of each walker do, and how that compares with people."""
+    from gaitsim.analysis.gait_numbers import gait_table, norms_table
+
+    for replay in replays:
+        title = replay.label if len(replays) > 1 else ""
+        for table in (gait_table(replay), norms_table(replay)):
+            if table is not None:
+                console.give_table(table.columns, table.rows, title)
+
+
 def _data(replay: Replay) -> dict[str, Any]:
     from gaitsim.analysis.gait_norms import norm_numbers
+    from gaitsim.analysis.gait_numbers import gait_numbers
 
     outcome = replay.outcome
     return {
@@ -309,6 +322,7 @@ def _data(replay: Replay) -> dict[str, Any]:
         "reason": outcome.reason or None,
         "score": outcome.score,
         "measures": dict(outcome.metrics),
+        "gait": gait_numbers(replay),
         "norms": norm_numbers(replay),
     }
 

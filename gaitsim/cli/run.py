@@ -1,4 +1,4 @@
-"""gaitsim run: simulate a spec once, or once for each row of a study."""
+"""gaitsim run: simulate a spec once, once for each row of a study, or once for each draw around its tuned values."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from gaitsim.errors import SimulationFailed
 
 if TYPE_CHECKING:
     from gaitsim.model import Model
+    from gaitsim.optimization.draws import Draws
     from gaitsim.results.source import Source
     from gaitsim.simulation.outcome import Outcome
     from gaitsim.spec.study import Variant
@@ -30,10 +31,19 @@ def run(
         list[str] | None,
         typer.Option(metavar="ADDRESS=VALUES", help="Values low:high:count or a,b,c; a table; repeatable."),
     ] = None,
+    draws: Annotated[
+        int | None,
+        typer.Option(metavar="COUNT", help="So many runs, each with every tuned value a little different, by chance."),
+    ] = None,
+    within: Annotated[
+        str | None, typer.Option(metavar="SHARE", help="Of --draws: how different at most, as '1 %' (the default).")
+    ] = None,
+    seed: Annotated[int | None, typer.Option(help="Of --draws: the same seed draws the same (default: 1).")] = None,
     out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write every signal to a CSV file.")] = None,
     no_save: Annotated[bool, typer.Option("--no-save", help="Keep no result folder.")] = False,
     candidate: Annotated[
-        str | None, typer.Option(metavar="WHICH", help="Of a result: best, a rank, or GENERATION:INDEX.")
+        str | None,
+        typer.Option(metavar="WHICH", help="Of a result: best, a rank, GENERATION:INDEX; of a study or draws, a run."),
     ] = None,
     start: Annotated[bool, typer.Option("--start", help="Ignore tuned values beside the spec.")] = False,
     trust: Trust = False,
@@ -48,14 +58,18 @@ def run(
 
     gaitsim run specs/hopping_geyer2003.yaml --vary feedback.gain=1:15:8
 
+    gaitsim run specs/walking_geyer2010.yaml --draws 10 --within '1 %' --seed 1
+
     gaitsim run specs/hopping_geyer2003.yaml --set simulate.step='1 ms' --out hop.csv
 
     gaitsim run results/2026-11-22-hopping-3f9c --candidate 2
     """
+    from gaitsim.cli.draws import drawn_models, draws_asked
     from gaitsim.errors import Usage
     from gaitsim.simulation.run import Simulator
     from gaitsim.spec.study import variants
 
+    drawn = draws_asked(draws, within, seed, vary or [], out)
     source = open_source(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)
     rows = variants(source.document, vary or [])
     if out is not None and len(rows) > 1:
@@ -64,7 +78,10 @@ def run(
     models = [source.model(row.document) for row in rows]
     for notice in dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]):
         console.say(notice)
-    if len(rows) == 1 and not rows[0].settings:
+    if drawn:
+        outcomes = _all(drawn_models(models, drawn, spec), mode)
+        rows = rows * drawn.count
+    elif len(rows) == 1 and not rows[0].settings:
         simulator = Simulator(models[0], mode.value)
         outcomes = [simulator.run(recorded=out is not None)]
     else:
@@ -75,12 +92,9 @@ def run(
         save_trajectory(out, outcomes[0])
     folder = None
     if not no_save:
-        folder = _saved(source, models, mode, rows, outcomes)
-    _report(rows, outcomes, models, mode, folder, json)
-    for row, outcome in zip(rows, outcomes, strict=True):
-        if outcome.status == "failed":
-            of_row = ", ".join(f"{address} = {value}" for address, value in row.settings.items())
-            console.say(f"{of_row + ': ' if of_row else ''}failed: {outcome.reason}")
+        folder = _saved(source, models, mode, rows, outcomes, drawn)
+    _report(rows, outcomes, models, mode, folder, json, drawn)
+    _say_endings(rows, outcomes, drawn)
     return _FAILED if all(outcome.status == "failed" for outcome in outcomes) else 0
 
 
@@ -105,14 +119,19 @@ def _all(models: Sequence[Model], mode: ModeName) -> list[Outcome]:
 
 
 def _saved(
-    source: Source, models: Sequence[Model], mode: ModeName, rows: Sequence[Variant], outcomes: Sequence[Outcome]
+    source: Source,
+    models: Sequence[Model],
+    mode: ModeName,
+    rows: Sequence[Variant],
+    outcomes: Sequence[Outcome],
+    draws: Draws | None,
 ) -> Path:
     from gaitsim.compiler.mjcf import assemble
     from gaitsim.results.store import save_run
 
     table = [(row.settings, outcome) for row, outcome in zip(rows, outcomes, strict=True)]
     xml = assemble(models[0], models[0].values()).xml
-    return save_run(RESULTS, source.bundle(models), models[0], xml, mode.value, table)
+    return save_run(RESULTS, source.bundle(models), models[0], xml, mode.value, table, draws)
 
 
 def _report(
@@ -122,23 +141,42 @@ def _report(
     mode: ModeName,
     folder: Path | None,
     json: bool,
+    draws: Draws | None,
 ) -> None:
+    from gaitsim.cli.draws import drawn_data, give_draws
+
     single = len(rows) == 1 and not rows[0].settings
     if json:
         tail = {"mode": mode.value, "result": str(folder) if folder else None}
         tables = [_data(outcome) for outcome in outcomes]
-        if single:
+        if draws:
+            console.give_json({"status": _overall(outcomes), **drawn_data(draws, models[0], outcomes, tables), **tail})
+        elif single:
             console.give_json(tables[0] | tail)
         else:
             table = [{"settings": row.settings, **data} for row, data in zip(rows, tables, strict=True)]
             console.give_json({"status": _overall(outcomes), "rows": table, **tail})
         return
-    if single and outcomes[0].status != "failed":
+    if draws:
+        give_draws(draws, models[0], outcomes)
+    elif single and outcomes[0].status != "failed":
         _print_one(outcomes[0], models[0])
     elif not single:
         _print_table(rows, outcomes)
     if folder:
-        console.say(f"saved in {folder}")
+        look = f"; see a draw: gaitsim run {folder} --candidate NUMBER" if draws else ""
+        console.say(f"saved in {folder}{look}")
+
+
+def _say_endings(rows: Sequence[Variant], outcomes: Sequence[Outcome], draws: Draws | None) -> None:
+    """Which runs failed, and why; of draws also which ones were stopped."""
+    for number, (row, outcome) in enumerate(zip(rows, outcomes, strict=True), start=1):
+        words = [f"{address} = {value}" for address, value in row.settings.items()]
+        which = f"draw {number}: " if draws else f"{', '.join(words)}: " if words else ""
+        if outcome.status == "failed":
+            console.say(f"{which}failed: {outcome.reason}")
+        elif outcome.status == "stopped" and draws:
+            console.say(f"{which}stopped by {outcome.reason} at {outcome.simulated_seconds:.4g} s")
 
 
 def _overall(outcomes: Sequence[Outcome]) -> str:
@@ -174,10 +212,11 @@ def _print_one(outcome: Outcome, model: Model) -> None:
 
 
 def _print_table(rows: Sequence[Variant], outcomes: Sequence[Outcome]) -> None:
+    from gaitsim.model import headline_metrics
+
     addresses = list(dict.fromkeys(address for row in rows for address in row.settings))
-    every = list(dict.fromkeys(name for outcome in outcomes for name in outcome.metrics))
-    # A table has room for the metrics that bear their measure's name; --json has all.
-    names = [name for name in every if name.rpartition(".")[0] not in every]
+    # A table has no room for all; --json has.
+    names = headline_metrics(dict.fromkeys(name for outcome in outcomes for name in outcome.metrics))
     table = [
         (
             *(row.settings.get(address, "") for address in addresses),

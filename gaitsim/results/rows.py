@@ -20,7 +20,8 @@ def read_rows(folder: Path) -> list[dict[str, Any]]:
     try:
         for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
             row = json.loads(line)
-            if not all(isinstance(row[name], dict) for name in ("settings", "metrics")) or not {*COMPARED} <= {*row}:
+            tables = (row["settings"], row["metrics"], row.get("values", {}))
+            if not all(isinstance(table, dict) for table in tables) or not {*COMPARED} <= {*row}:
                 raise ValueError(f"line {number} is no run")
             rows.append(row)
     except (OSError, ValueError, KeyError, TypeError) as error:
@@ -49,5 +50,11 @@ def pick_row(folder: Path, which: str) -> int:
 
 
 def row_words(row: Map[str, Any]) -> str:
-    """What was set in a run: gain = 2, ...; empty if nothing."""
-    return ", ".join(f"{address} = {value}" for address, value in row["settings"].items())
+    """What was set in a run: gain = 2, ...; or which draw it is; empty if neither."""
+    said = [f"{address} = {value}" for address, value in row["settings"].items()]
+    return ", ".join([*said, *([f"draw {row['draw']}"] if "draw" in row else [])])
+
+
+def row_starts(row: Map[str, Any]) -> dict[str, float]:
+    """The tuned values of a draw, in SI, by address; none of another run."""
+    return {str(address): float(value) for address, value in row.get("values", {}).items()}

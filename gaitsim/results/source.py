@@ -21,10 +21,10 @@ from gaitsim.results.bundle import (
 from gaitsim.results.episodes import first_episode
 from gaitsim.results.manifest import read_manifest
 from gaitsim.results.pick import pick
-from gaitsim.results.rows import pick_row, read_rows, row_words
+from gaitsim.results.rows import pick_row, read_rows, row_starts, row_words
 from gaitsim.results.trust import check_trust
 from gaitsim.spec.document import Mapping
-from gaitsim.spec.inheritance import override, split_setting
+from gaitsim.spec.inheritance import override, split_setting, without
 from gaitsim.spec.resolve import resolve
 
 
@@ -74,7 +74,8 @@ def source_of_result(folder: Path, settings: Sequence[str], trusted: bool, candi
             recorded = {}
     elif candidate is not None:
         rows, chosen = read_rows(folder), pick_row(folder, candidate)
-        recorded = rows[chosen]
+        recorded, document = rows[chosen], without(document, "study")
+        starts |= row_starts(recorded)
         for address, text in recorded["settings"].items():
             document = override(document, address, text)
         notice = f"run {chosen + 1} of {len(rows)} of {folder}: {row_words(recorded)}" if len(rows) > 1 else ""

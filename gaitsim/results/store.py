@@ -8,6 +8,7 @@ import secrets
 import shutil
 from collections.abc import Mapping as Map
 from collections.abc import Sequence
+from dataclasses import asdict
 from datetime import date
 from pathlib import Path
 from typing import Any
@@ -15,11 +16,14 @@ from typing import Any
 from gaitsim.errors import GaitsimError
 from gaitsim.exchange.csv import write_csv
 from gaitsim.model import Model
+from gaitsim.optimization.draws import Draws
 from gaitsim.results.bundle import Bundle
 from gaitsim.results.listing import model_data
 from gaitsim.results.manifest import new_manifest, write_manifest
 from gaitsim.results.readme import readme
+from gaitsim.results.rows import row_words
 from gaitsim.results.trust import remember
+from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.spec.document import dump
 
@@ -59,14 +63,21 @@ def create_result(
     return target
 
 
-def save_run(root: Path, bundle: Bundle, model: Model, xml: str, mode: str, rows: Sequence[Row]) -> Path:
-    """The result of a run, or of a study with one row a variant; its path.
+def save_run(
+    root: Path, bundle: Bundle, model: Model, xml: str, mode: str, rows: Sequence[Row], draws: Draws | None = None
+) -> Path:
+    """The result of a run, of a study with one row a variant, or of draws around the model's starts; its path.
 
     Errors: CannotSave.
     """
     manifest = new_manifest("run", bundle, mode, notices=list(model.notices)) | {"status": "complete"}
-    lines = [json.dumps(row_data(settings, outcome), allow_nan=False) for settings, outcome in rows]
-    headline = [_headline(settings, outcome) for settings, outcome in rows[:20]]
+    found = [row_data(settings, outcome) for settings, outcome in rows]
+    if draws:
+        manifest["draws"] = asdict(draws)
+        drawn = enumerate(draws.values(problem_of(model)), start=1)
+        found = [row | {"draw": k, "values": values} for row, (k, values) in zip(found, drawn, strict=True)]
+    lines = [json.dumps(row, allow_nan=False) for row in found]
+    headline = [*_tally(draws, rows), *(_headline(row) for row in found[:20])]
     more = {"evaluations.jsonl": "\n".join(lines) + "\n", "README.md": readme(manifest, headline, "")}
     return create_result(root, bundle, model, xml, manifest, more)
 
@@ -92,10 +103,18 @@ def row_data(settings: Map[str, str], outcome: Outcome) -> dict[str, Any]:
     }
 
 
-def _headline(settings: Map[str, str], outcome: Outcome) -> str:
-    said = ", ".join(f"{address} = {value}" for address, value in settings.items())
-    numbers = ", ".join(f"{name} {value:.5g}" for name, value in outcome.metrics.items())
-    return f"{said + ': ' if said else ''}{outcome.status}{': ' + numbers if numbers else ''}"
+def _tally(draws: Draws | None, rows: Sequence[Row]) -> list[str]:
+    """How many draws completed, as one line; nothing of other runs."""
+    if draws is None:
+        return []
+    done = sum(outcome.status == "completed" for _, outcome in rows)
+    return [f"{done} of {draws.count} draws within {100 * draws.within:g} % completed (seed {draws.seed})"]
+
+
+def _headline(row: Map[str, Any]) -> str:
+    said = row_words(row)
+    numbers = ", ".join(f"{name} {math.nan if v is None else v:.5g}" for name, v in row["metrics"].items())
+    return f"{said + ': ' if said else ''}{row['status']}{': ' + numbers if numbers else ''}"
 
 
 def _free_name(root: Path, name: str) -> Path:

@@ -13,7 +13,7 @@ from gaitsim.optimization.journal import evaluations_in
 from gaitsim.results.bundle import bundle_document, bundle_library, bundle_starts
 from gaitsim.results.episodes import bundle_episodes
 from gaitsim.results.manifest import BadResult
-from gaitsim.results.rows import COMPARED, read_rows
+from gaitsim.results.rows import COMPARED, read_rows, row_starts
 from gaitsim.results.store import row_data
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.inheritance import override
@@ -54,7 +54,7 @@ def _runs(folder: Path, name: str, mode: Mode) -> Iterator[Check]:
         variant = document
         for address, text in row["settings"].items():
             variant = override(variant, address, text)
-        model = resolve(variant, library, name).started_at(bundle_starts(folder))
+        model = resolve(variant, library, name).started_at(bundle_starts(folder) | row_starts(row))
         now = row_data(row["settings"], Simulator(model, mode).run())
         yield Check(", ".join(f"{a}={v}" for a, v in row["settings"].items()) or f"run {i}", differences(row, now))
 

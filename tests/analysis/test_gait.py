@@ -96,6 +96,17 @@ def test_a_signal_over_the_cycle_has_mean_and_band() -> None:
     assert steady.deviation == pytest.approx(0, abs=1e-3)
 
 
+def test_stances_and_the_highest_value_of_each_stride() -> None:
+    _, right = legs_of(walk({}))
+    begins = [right.times[one.start] for one in right.stances]
+    assert begins == pytest.approx(right.touchdowns[:-1])
+    assert [one.stop - one.start for one in right.stances] == [144] * 7  # 0.72 s
+    # A blow of one instant, which the 101 points of a stride pass over.
+    blow = np.zeros(len(TIMES))
+    blow[right.stances[2].start + 3] = 2.2
+    assert right.highest(blow).tolist() == [0, 0, 2.2, 0, 0, 0, 0]
+
+
 def test_a_leg_needs_contacts_on_its_side_and_two_strides() -> None:
     assert two_legs(of_spec("hopping_geyer2003", [("simulate.duration", "0.5 s")])) is None
     whole = walk({})
@@ -200,7 +211,7 @@ def test_symmetry_index() -> None:
 def test_margin_to_falling(tmp_path: Path) -> None:
     known = extended(tmp_path, "parts: {center: {use: sensor/center_of_mass}}\n")
     signals = {"center.forward": 0.3, "center.forward_velocity": 1.0, "center.height": 1.0}
-    replay = walk({**signals, "leg_r.heel.sphere.position": 0.7, "leg_l.heel.sphere.position": 0.1}, known)
+    replay = walk({**signals, "leg_r.heel.position": 0.7, "leg_l.heel.position": 0.1}, known)
     legs = legs_of(replay)
     found = margin(replay, legs)
     assert found is not None
@@ -214,7 +225,7 @@ def test_margin_to_falling(tmp_path: Path) -> None:
 
 def test_a_walker_has_figures_with_words_and_units() -> None:
     drawings = {drawing.name: drawing for drawing in gait_figures(like_people())}
-    names = ["angles", "forces", "moments", "activations", "steps", "symmetry"]
+    names = ["angles", "forces", "pressure", "moments", "activations", "metabolics", "steps", "symmetry"]
     assert list(drawings) == [f"gait_{name}" for name in names]
     assert "right r 1.00" in drawings["gait_angles"].caption
     assert "fukuchi2018" in drawings["gait_angles"].caption
@@ -222,7 +233,7 @@ def test_a_walker_has_figures_with_words_and_units() -> None:
     assert "7 strides of the right leg" in drawings["gait_forces"].caption
     assert len(drawings["gait_angles"].figure.axes) == 3
     assert len(drawings["gait_moments"].figure.axes) == 6
-    for name in ("gait_angles", "gait_forces", "gait_moments", "gait_steps"):
+    for name in ("gait_angles", "gait_forces", "gait_pressure", "gait_moments", "gait_metabolics", "gait_steps"):
         assert all(axes.get_ylabel().endswith(")") for axes in drawings[name].figure.axes)
     assert [axes.get_title(loc="left") for axes in drawings["gait_activations"].figure.axes[:2]] == [
         "soleus",
@@ -231,17 +242,27 @@ def test_a_walker_has_figures_with_words_and_units() -> None:
 
 
 def test_a_walk_says_what_it_lacks(tmp_path: Path) -> None:
-    assert lacking_gait(walk({})) == []
+    (center,) = lacking_gait(walk({}))
+    assert center == (
+        "walk does not tell its center of mass, so no margin to falling is drawn; "
+        "add center: {use: sensor/center_of_mass} to its parts."
+    )
+    known = extended(tmp_path, "parts: {center: {use: sensor/center_of_mass}}\n")
+    assert lacking_gait(walk({}, known)) == []
     assert lacking_gait(of_spec("hopping_geyer2003", [("simulate.duration", "0.1 s")])) == []
     (short,) = lacking_gait(cut(walk({}), 480))
     assert short == "walk takes fewer than two strides with each leg, so nothing is drawn over the gait cycle."
     bare = "".join(f"  correlation_{joint}: null\n" for joint in ("hip", "knee", "ankle"))
     alone = extended(tmp_path, f"measures:\n{bare}objective: null\n")
-    (words,) = lacking_gait(walk({}, alone))
+    words, _ = lacking_gait(walk({}, alone))
     assert words == (
         "walk does not say which angles people have too, so none is compared; add a measure/gait_curve for each joint."
     )
-    assert [d.name for d in gait_figures(walk({}, alone))][:2] == ["gait_forces", "gait_activations"]
+    assert [d.name for d in gait_figures(walk({}, alone))][:3] == [
+        "gait_forces",
+        "gait_pressure",
+        "gait_activations",
+    ]
     assert norm_numbers(walk({}, alone)) == {}
 
 

@@ -110,7 +110,8 @@ def test_a_result_gets_figures_and_a_report_and_still_verifies(tuned: Path, run:
     said = run("analyze", str(tuned), "--no-video", "--json")
     data = json.loads(said.out)
     assert said.code == 0
-    assert {"measures", "norms", "figures", "video", "report", "exports", "notices", "status", "score"} <= {*data}
+    expected = {"measures", "gait", "norms", "figures", "video", "report", "exports", "notices", "status", "score"}
+    assert expected <= {*data}
     assert (data["status"], data["video"], data["exports"]) == ("completed", None, [])
     assert data["report"] == str(tuned / "report.html")
     made = files(tuned) - before
