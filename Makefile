@@ -9,7 +9,7 @@ PYTHONS := $(PYTHON) python3.13 python3.12 python3.11 python3
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 export GAITSIM_CACHE := $(CURDIR)/.cache/gaitsim
 
-.PHONY: help setup run test check bench muscles clean
+.PHONY: help setup run test check bench muscles walker clean
 help:
 	@sed -n 's/^\([a-z]*\):.*## /make \1	/p' Makefile
 
@@ -32,6 +32,9 @@ bench: $(READY) ## time a step against a bare mj_step loop in C, and workers aga
 
 muscles: $(READY) ## tune the hopper with every muscle model: height, work, wall time (some minutes)
 	.venv/bin/python bench/muscle_models.py
+
+walker: $(READY) ## what the walker takes: contacts, first walks of seeds, swaps tuned again (an hour)
+	.venv/bin/python bench/walker.py
 
 clean: ## remove .venv and all caches; results/ stays
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache bench/build

@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from gaitsim.cli.source import source_of_spec
+from gaitsim.optimization.draws import Draws
+from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
 
@@ -17,6 +19,31 @@ WALKER = ROOT / "specs" / "walking_geyer2010.yaml"
 
 def run(spec: Path, *settings: str, tuned: bool = True) -> Outcome:
     return Simulator(source_of_spec(spec, list(settings), None, tuned=tuned).model()).run()
+
+
+@pytest.mark.parametrize("step", ["0.5 ms", "0.25 ms"])
+def test_it_walks_out_of_the_box_at_its_step_and_at_half_of_it(step: str) -> None:
+    found = run(WALKER, "simulate.step=" + step)
+    assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
+    walk = found.metrics
+    assert walk["fall_time"] == pytest.approx(20) and walk["fall_time.fell"] == 0
+    assert 1.2 < walk["speed"] < 1.4
+    assert 0.58 < walk["stance_fraction"] < 0.66
+    # A step is what the body goes on in the time of a step.
+    assert walk["step_length"] == pytest.approx(walk["speed"] * walk["cadence.step_time"], rel=0.02)
+    for side in "lr":
+        assert walk[f"force_peaks_{side}.two_peaks"] == 1 and walk[f"force_peaks_{side}"] < 1.4
+    assert walk["correlation_hip"] > 0.9 and walk["correlation_knee"] > 0.9 and walk["correlation_ankle"] > 0.8
+    assert 50 < walk["peak_knee_flexion"] < 75
+    assert 2.5 < walk["cost_of_transport"] < 5
+
+
+@pytest.mark.slow
+def test_it_walks_with_every_tuned_number_changed_by_up_to_one_percent() -> None:
+    model = source_of_spec(WALKER, [], None, tuned=True).model()
+    draws = Draws(10, 0.01, seed=1).values(problem_of(model))
+    found = [Simulator(model.started_at(values)).run().status for values in draws]
+    assert found.count("completed") >= 9
 
 
 @pytest.mark.parametrize("step", ["0.5 ms", "0.25 ms"])
