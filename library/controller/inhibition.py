@@ -6,7 +6,8 @@ class Inhibition(Component):
 
     In Geyer & Herr (2010): the soleus' force from the tibialis anterior, G_SOLTA F_SOL; the length
     of the hamstrings from the hip flexors, G_HAMHFL (l_HAM - l_off,HAM); the other leg's load from
-    the vasti in double support, k_bw |F_contra| DSup.
+    the vasti in double support, k_bw |F_contra| DSup. In their author's release of 2006 the stretch
+    l_HAM - l_off,HAM is never below 0 (`least: 0`): short hamstrings do not excite the hip flexors.
     """
 
     gain = Parameter("1", "G: stimulation taken away per unit of the signal.", bounds=(0, 100))
@@ -22,7 +23,7 @@ class Inhibition(Component):
         "The least that is taken away; 0 if a signal below P_off shall have no effect.",
         default=-1e6,
         bounds=(-1e6, 0),
-        source="definition: a signal below P_off excites, as published",
+        source="definition: a signal below P_off excites",
     )
     signal = Input("1", "Normalized force or length of another muscle, or a load in body weights.")
     gate = Input("1", "1 lets the inhibition through, 0 leaves nothing.", default=1)

@@ -5,7 +5,8 @@ class LengthReflex(Component):
     """Stimulation from a muscle's delayed fiber length: S = S_0 + G (l - l_off), clamped and gated.
 
     The tibialis anterior of Geyer & Herr (2010): S_TA = S_0 + G_TA (l_TA(t - 20 ms) - l_off,TA).
-    As published it is not clamped: a fiber shorter than l_off takes stimulation away.
+    The paper's table shows no clamp; in its author's release of 2006 the stretch l - l_off is never below 0,
+    which is `lower` at S_0. Without it a fiber shorter than l_off takes stimulation away.
     """
 
     gain = Parameter("1", "G: stimulation per l_opt; negative inhibits.", bounds=(-10, 10))
