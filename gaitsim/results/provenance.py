@@ -19,7 +19,7 @@ def provenance() -> dict[str, Any]:
     """What a result must remember of its making."""
     return {
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
-        "command": sys.argv,
+        "command": [Path(sys.argv[0]).name, *sys.argv[1:]],
         "gaitsim": __version__,
         "versions": {"python": platform.python_version()} | {name: version(name) for name in _LIBRARIES},
         "machine": {"system": platform.platform(), "cpu": _processor()},
