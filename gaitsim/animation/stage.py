@@ -8,7 +8,9 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from gaitsim.animation.arms import arm_paths
 from gaitsim.animation.refusal import CannotAnimate
+from gaitsim.animation.routes import Drawer
 from gaitsim.compiler.ground import GROUND
 from gaitsim.compiler.mjcf import Assembly, assemble, tie_place
 from gaitsim.compiler.places import DrawnForce, DrawnLine, Point
@@ -81,8 +83,8 @@ def stage_of(model: Model) -> Stage:
     assembly = assemble(model, model.values())
     spec = assembly.spec
     lines, forces = _drawings(model, assembly)
-    muscles = _muscles(model, assembly)
     _paint_bodies(model, spec)
+    muscles = _muscles(model, assembly)
     _paint_tendons(spec, {name for name, _ in muscles})
     _furnish(spec, ground=bool(forces))
     mechanics = spec.compile()
@@ -115,14 +117,20 @@ def _coordinates(model: Model, assembly: Assembly, mechanics: Any) -> tuple[tupl
 
 
 def _muscles(model: Model, assembly: Assembly) -> list[tuple[str, str]]:
-    """Tendons of muscles, and the signal that colours them: the path's owner has an activation."""
+    """Tendons of muscles, and the signal that colours them: the path's owner has an activation.
+
+    Paths that are only moment arms get their tendons here.
+    """
     outputs = {part.address: part.type.outputs for part in model.parts}
     found = []
     for i, tie in assembly.reads:
         owner = model.parts[i].address.rpartition(".")[0]
         if tie.field == "ten_length" and tie.element and "activation" in outputs.get(owner, {}):
             found.append((tie.element.name, f"{owner}.activation"))
-    return found
+    places = {name for name, _ in found}
+    drawer = Drawer(assembly.spec, assembly.model)
+    paths = [path for path in arm_paths(model, assembly) if path.address not in places and drawer.draw(path)]
+    return found + [(path.address, path.activation) for path in paths]
 
 
 def _drawings(model: Model, assembly: Assembly) -> tuple[list[Line], list[Force]]:

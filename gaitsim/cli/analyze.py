@@ -66,7 +66,9 @@ def analyze(
     ] = None,
     from_time: Annotated[str | None, typer.Option(metavar="TIME", help="Look from here on, such as '2 s'.")] = None,
     to_time: Annotated[str | None, typer.Option(metavar="TIME", help="Look up to here.")] = None,
-    video: Annotated[bool, typer.Option("--video/--no-video", help="Make a video.")] = True,
+    video: Annotated[
+        bool | None, typer.Option("--video/--no-video", help="Make a video, or none.  [default: unless --only]")
+    ] = None,
     gif: Annotated[bool, typer.Option("--gif", help="Make the video a GIF.")] = False,
     speed: Annotated[float, typer.Option(help="Of the video: 0.25 is four times slower than it was.")] = 1.0,
     fps: Annotated[float | None, typer.Option(help="Of the video: frames in a second.")] = None,
@@ -114,7 +116,7 @@ def analyze(
     asked = _asked(replays, plot or [], against, return_map or [])
     products.draw([*asked, *([] if only else default_figures(replays))], [f.value for f in formats or [Format.png]])
     products.export(replays, [ending.value for ending in export or []], spacing)
-    if video and (not only or gif or scopes):
+    if (not only or gif or scopes) if video is None else video:
         if len(replays) > 1:
             products.remark([f"the video shows {replays[0].label}"])
         products.film(replays[0], _video_options(speed, fps, size, scopes), "gif" if gif else "mp4")

@@ -223,6 +223,27 @@ def test_a_run_that_breaks_at_once(run: Run) -> None:
     assert json.loads(said.out)["status"] == "failed"
 
 
+@pytest.mark.parametrize(
+    ("words", "filmed"),
+    [
+        ((), True),
+        (("--no-video",), False),
+        (("--only",), False),
+        (("--only", "--video"), True),
+        (("--only", "--gif"), True),
+    ],
+)
+def test_when_there_is_a_film(
+    words: tuple[str, ...], filmed: bool, swung: Path, run: Run, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from gaitsim.animation import video
+
+    films: list[Path] = []
+    monkeypatch.setattr(video, "record", lambda *said, **_: films.append(said[1]) or said[1])
+    run("analyze", str(swung), "--plot", "pivot.angle", *words)
+    assert bool(films) == filmed
+
+
 def test_a_machine_without_opengl(swung: Path, run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
     from gaitsim.animation import NoOpenGL, video
 
