@@ -4,18 +4,20 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class StepLength(Component):
-    """How far ahead of the standing foot a foot is set down."""
+    """How far ahead of the other foot's last print a foot is set down."""
 
     settle = Parameter(
         "s", "Earlier touchdowns do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
     )
     left = Input("1", "1 while the left leg stands, such as {from: stance_l.in_stance}.")
     right = Input("1", "1 while the right leg stands.")
-    left_position = Input("m", "Forward position of what is down of the left foot when the right lands: its ball.")
+    left_position = Input("m", "Forward position of a place on the left foot, such as its heel.")
     right_position = Input("m", "Forward position of the same place of the right foot.")
 
     steps = State("1", "Steps since the start.")
     before = State("1", "Whether each leg stood in the last step.", size=2)
+    printed = State("m", "Where each foot was set down last.", size=2)
+    prints = State("1", "1 for a foot that has been set down.", size=2)
     total = State("m", "Sum of the lengths of the steps that end with each leg's touchdown.", size=2)
     count = State("1", "How many they were.", size=2)
 
@@ -34,10 +36,13 @@ class StepLength(Component):
     def update(p, u, x, y, dt):
         for i in range(2):
             now = u.left if i == 0 else u.right
-            ahead = u.left_position - u.right_position if i == 0 else u.right_position - u.left_position
-            if now > 0.5 and x.before[i] < 0.5 and x.steps * dt >= p.settle:
-                x.total[i] = x.total[i] + ahead
-                x.count[i] = x.count[i] + 1
+            if now > 0.5 and x.before[i] < 0.5:
+                here = u.left_position if i == 0 else u.right_position
+                if x.prints[1 - i] > 0.5 and x.steps * dt >= p.settle:
+                    x.total[i] = x.total[i] + here - x.printed[1 - i]
+                    x.count[i] = x.count[i] + 1
+                x.printed[i] = here
+                x.prints[i] = 1.0
             x.before[i] = now
         x.steps = x.steps + 1
 

@@ -94,6 +94,9 @@ def test_step_length() -> None:
             "asymmetry": 0.1 / 0.65,
         }
     )
+    # A foot that rolls on, 5 cm after it was set down, has left its print where it was.
+    rolling = signals | {"left_position": signals["left_position"] + 0.05 * ((times + 1e-9) % 1 > 0.1)}
+    assert metrics("measure/step_length", rolling, DT) == pytest.approx(found)
     assert metrics("measure/step_length", signals, DT, settle=50.0)["value"] == NAN
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
 
 from gaitsim.cli.source import source_of_spec
 from gaitsim.optimization.draws import Draws
-from gaitsim.results.tuned import problem_of
+from gaitsim.results.tuned import problem_of, read_tuned, tuned_path
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
 
@@ -36,6 +37,14 @@ def test_it_walks_out_of_the_box_at_its_step_and_at_half_of_it(step: str) -> Non
     assert walk["correlation_hip"] > 0.9 and walk["correlation_knee"] > 0.9 and walk["correlation_ankle"] > 0.8
     assert 50 < walk["peak_knee_flexion"] < 75
     assert 2.5 < walk["cost_of_transport"] < 5
+
+
+def test_the_result_that_produced_its_values_is_in_the_repository() -> None:
+    result, values = read_tuned(tuned_path(WALKER))
+    rows = [json.loads(line) for line in (ROOT / result / "evaluations.jsonl").read_text().splitlines()]
+    best = min(rows, key=lambda row: row["score"])
+    assert best["x"] == list(values.values())
+    assert run(WALKER).score == pytest.approx(best["score"], rel=1e-3)
 
 
 @pytest.mark.slow
