@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import math
 import statistics
 import subprocess
 import sys
@@ -83,7 +84,8 @@ GOALS = {"10 s": walks(10), "20 s": walks(20), "20 s at 1.2 to 1.4 m/s": walks(2
 
 def said(metrics: Mapping[str, Any]) -> list[str]:
     """The cells of a table for one walk."""
-    return ["-" if metrics.get(name) is None else f"{metrics[name]:.3g}" for name in SHOWN]
+    values = (metrics.get(name, math.nan) for name in SHOWN)
+    return ["-" if math.isnan(value) else f"{value:.3g}" for value in values]
 
 
 def contacts(_: argparse.Namespace, console: Console) -> None:
@@ -166,17 +168,19 @@ def swaps(words: argparse.Namespace, console: Console) -> None:
         table.add_row(name, "0", *said(before.metrics))
         with tempfile.TemporaryDirectory() as folder:
             evaluations, after = retuned(settings, words, words.keep or folder)
-        table.add_row("", str(evaluations), *said(after))
+        table.add_row("" if after else "no candidate runs", str(evaluations), *said(after))
     console.print(table)
 
 
 def retuned(settings: Sequence[str], words: argparse.Namespace, folder: str) -> tuple[int, Mapping[str, Any]]:
-    """Evaluations of a search over 10 s of walking, and what its best candidate does in 20 s."""
+    """Evaluations of a search over 10 s of walking, and what its best candidate does in 20 s; nothing if all fail."""
     used = [*settings, "simulate.duration=10 s", f"optimize.spread_factor={words.spread_factor}"]
     command = [sys.executable, "-m", "gaitsim.cli.main", "optimize", str(SPEC), "--from", "tuned", "--json"]
     command += ["--generations", str(words.generations), *(word for setting in used for word in ("--set", setting))]
-    ran = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, text=True, check=True)
+    ran = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, text=True, check=False)
     search = json.loads(ran.stdout)
+    if ran.returncode:
+        return search.get("evaluations", 0), {}
     source = open_source(Path(folder) / search["result"], ["simulate.duration=20 s"], None)
     return search["evaluations"], Simulator(source.model()).run().metrics
 
@@ -189,8 +193,8 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tables", nargs="*", default=list(TABLES), choices=TABLES)
     parser.add_argument("--seeds", type=int, default=10, help="of seeds and middle, from 1 on")
-    parser.add_argument("--generations", type=int, default=30, help="of each search, at most")
-    parser.add_argument("--spread-factor", type=float, default=0.5, help="of swaps")
+    parser.add_argument("--generations", type=int, default=60, help="of each search, at most")
+    parser.add_argument("--spread-factor", type=float, default=1.0, help="of swaps")
     parser.add_argument("--keep", metavar="FOLDER", help="where results of swaps are kept; unless given, nowhere")
     words = parser.parse_args()
     for name in words.tables:
