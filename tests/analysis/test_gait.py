@@ -209,9 +209,8 @@ def test_symmetry_index() -> None:
 
 
 def test_margin_to_falling(tmp_path: Path) -> None:
-    known = extended(tmp_path, "parts: {center: {use: sensor/center_of_mass}}\n")
     signals = {"center.forward": 0.3, "center.forward_velocity": 1.0, "center.height": 1.0}
-    replay = walk({**signals, "leg_r.heel.position": 0.7, "leg_l.heel.position": 0.1}, known)
+    replay = walk({**signals, "leg_r.heel.position": 0.7, "leg_l.heel.position": 0.1})
     legs = legs_of(replay)
     found = margin(replay, legs)
     assert found is not None
@@ -220,12 +219,12 @@ def test_margin_to_falling(tmp_path: Path) -> None:
     assert found[on_ground("r") > 0] == pytest.approx(0.7 - ahead)
     assert found[on_ground("r") == 0] == pytest.approx(0.1 - ahead)
     assert "gait_margin" in [drawing.name for drawing in gait_figures(replay)]
-    assert margin(walk({}), legs) is None
+    assert margin(walk({}, extended(tmp_path, "parts: {center: null}\n")), legs) is None
 
 
 def test_a_walker_has_figures_with_words_and_units() -> None:
     drawings = {drawing.name: drawing for drawing in gait_figures(like_people())}
-    names = ["angles", "forces", "pressure", "moments", "activations", "metabolics", "steps", "symmetry"]
+    names = ["angles", "forces", "pressure", "moments", "activations", "metabolics", "steps", "margin", "symmetry"]
     assert list(drawings) == [f"gait_{name}" for name in names]
     assert "right r 1.00" in drawings["gait_angles"].caption
     assert "fukuchi2018" in drawings["gait_angles"].caption
@@ -242,19 +241,18 @@ def test_a_walker_has_figures_with_words_and_units() -> None:
 
 
 def test_a_walk_says_what_it_lacks(tmp_path: Path) -> None:
-    (center,) = lacking_gait(walk({}))
+    (center,) = lacking_gait(walk({}, extended(tmp_path, "parts: {center: null}\n")))
     assert center == (
         "walk does not tell its center of mass, so no margin to falling is drawn; "
         "add center: {use: sensor/center_of_mass} to its parts."
     )
-    known = extended(tmp_path, "parts: {center: {use: sensor/center_of_mass}}\n")
-    assert lacking_gait(walk({}, known)) == []
+    assert lacking_gait(walk({})) == []
     assert lacking_gait(of_spec("hopping_geyer2003", [("simulate.duration", "0.1 s")])) == []
     (short,) = lacking_gait(cut(walk({}), 480))
     assert short == "walk takes fewer than two strides with each leg, so nothing is drawn over the gait cycle."
     bare = "".join(f"  correlation_{joint}: null\n" for joint in ("hip", "knee", "ankle"))
     alone = extended(tmp_path, f"measures:\n{bare}objective: null\n")
-    words, _ = lacking_gait(walk({}, alone))
+    (words,) = lacking_gait(walk({}, alone))
     assert words == (
         "walk does not say which angles people have too, so none is compared; add a measure/gait_curve for each joint."
     )

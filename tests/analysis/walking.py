@@ -61,6 +61,8 @@ def walk(signals: Mapping[str, Floats | float], used: Model | None = None) -> Re
         values[:, columns[f"{heel}.force"]] = WEIGHT * on_ground(side)
         values[:, columns[f"{heel}.position"]] = position(side)
         values[:, columns[f"leg_{side}.ball.position"]] = position(side) + FOOT
+    if "center.height" in columns:
+        values[:, columns["center.height"]] = 1
     for address, signal in signals.items():
         values[:, columns[address]] = signal
     trajectory = Trajectory(TIMES, tuple(columns), tuple(s.unit for s in recorded), values)
