@@ -67,6 +67,14 @@ def test_the_published_gains_walk_untuned(step: str) -> None:
     assert walk["correlation_hip"] > 0.9 and walk["correlation_knee"] > 0.9
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("variant", ["published_contact", "millard2012", "gains2006", "effort"])
+def test_a_variant_walks_with_the_values_beside_it(variant: str) -> None:
+    found = run(ROOT / "specs" / f"walking_geyer2010_{variant}.yaml")
+    assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
+    assert 1.2 < found.metrics["speed"] < 1.4
+
+
 def test_its_perturbed_variant_without_perturbation_is_the_same_walk() -> None:
     plain, perturbed = run(WALKER), run(ROOT / "specs" / "walking_geyer2010_perturbed.yaml")
     same = set(plain.metrics) & set(perturbed.metrics)
