@@ -75,6 +75,14 @@ def test_a_variant_walks_with_the_values_beside_it(variant: str) -> None:
     assert 1.2 < found.metrics["speed"] < 1.4
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("variant", ["slope", "steps", "pushes"])
+def test_it_bears_a_slope_steps_and_a_push(variant: str) -> None:
+    found = run(ROOT / "specs" / f"walking_geyer2010_{variant}.yaml")
+    assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
+    assert found.metrics["speed"] > 0.6
+
+
 def test_its_perturbed_variant_without_perturbation_is_the_same_walk() -> None:
     plain, perturbed = run(WALKER), run(ROOT / "specs" / "walking_geyer2010_perturbed.yaml")
     same = set(plain.metrics) & set(perturbed.metrics)
