@@ -100,18 +100,15 @@ def contacts(_: argparse.Namespace, console: Console) -> None:
     console.print(table)
 
 
-def arriving(folder: Path, search: subprocess.Popen[str]) -> Iterator[dict[str, Any]]:
-    """The evaluations of a search as they are written; ends with the search."""
-    known: set[tuple[int, int]] = set()
-    over = False
+def journal(folder: Path, search: subprocess.Popen[str]) -> Iterator[dict[str, Any]]:
+    """The evaluations of a search, in order, generation by generation as they are written; ends with the search."""
+    read, over = 0, False
     while not over:
         over = search.poll() is not None
-        for path in folder.glob("results/*/*.jsonl"):
-            for line in path.read_text().splitlines():
-                row = json.loads(line) if line.endswith("}") else None
-                if row is not None and (row["generation"], row["index"]) not in known:
-                    known.add((row["generation"], row["index"]))
-                    yield row
+        for path in folder.glob("results/*/evaluations.jsonl"):
+            lines = [line for line in path.read_text().splitlines() if line.endswith("}")]
+            yield from (json.loads(line) for line in lines[read:])
+            read = len(lines)
         time.sleep(0.05)
 
 
@@ -124,7 +121,7 @@ def first_walks(words: Sequence[str]) -> dict[str, Seen | None]:
         with subprocess.Popen(
             command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True
         ) as search:
-            for count, row in enumerate(arriving(Path(folder), search), 1):
+            for count, row in enumerate(journal(Path(folder), search), 1):
                 for name in (n for n, seen in found.items() if seen is None and GOALS[n](row["metrics"])):
                     found[name] = Seen(count, row["generation"], time.perf_counter() - began)
                 if all(found.values()):

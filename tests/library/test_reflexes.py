@@ -201,3 +201,12 @@ def test_all_reflexes_sum_to_the_appendix(stance: float, double: float) -> None:
         signals |= {"takeoff_lean": chance.uniform(-0.2, 0.3)}
         wanted, found = appendix(signals, stance, double), by_parts(signals, stance, double)
         assert found == pytest.approx(wanted, rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize("length", [0.5, 0.85, 1.1])
+def test_a_stretch_below_its_offset_is_no_stretch(length: float) -> None:
+    """As in the author's release: {l - l_off}+, for a muscle's own reflex and for the one that it inhibits."""
+    stretch = max(0.0, length - 0.85)
+    values = {"gain": 4, "offset": 0.85, "least": 0, "signal": length}
+    assert computed("controller/length_reflex", **values).stimulation == pytest.approx(0.01 + 4 * stretch)
+    assert computed("controller/inhibition", **values).stimulation == pytest.approx(-4 * stretch)
