@@ -18,10 +18,11 @@ class DeGroote2016(Component):
     )
     smoothing = Parameter(
         "1",
-        "b: sharpness of the passage; 0.1 in the paper, 10 in OpenSim.",
-        default=10,
+        "b: sharpness of the passage. With 0.1 rise and fall take about the mean of both time constants; with 10, "
+        "which OpenSim recommends and does not construct, each takes its own.",
+        default=0.1,
         bounds=(0.01, 1000),
-        source="dembia2020: OpenSim's DeGrooteFregly2016Muscle",
+        source="degroote2016",
     )
     min_excitation = Parameter(
         "1",

@@ -3,23 +3,28 @@ import math
 from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, State, StepLimit
 
 LEAST, MOST = math.exp(0.2 * 4 / 0.6), math.exp(1.6 * 4 / 0.6)  # passive elasticity at its ends
+# The paper's digits are rounded; OpenSim's are not: f_l is 1 at 1, and f_v is 0 at -1 and 1 at 0.
+FIRST = (0.8150671134243542, 1.055033428970575, 0.162384573599574, 0.063303448465465)
+SECOND = (0.433004984392647, 0.716775413397760, -0.029947116970696, 0.200356847296188)
+THIRD = (0.1, 1.0, 0.353553390593274, 0.0)
+D_1, D_2, D_3, D_4 = -0.3211346127989808, -8.149, -0.374, 0.8825327733249912
+
+
+def gaussian(length, coefficients):
+    """b_1 exp(-((l - b_2) / (b_3 + b_4 l))^2 / 2)."""
+    height, center, width, widening = coefficients
+    offset = (length - center) / (width + widening * length)
+    return height * math.exp(-0.5 * offset * offset)
 
 
 def active_force(length):
     """f_l: three Gaussians whose width grows with the length."""
-    first = (length - 1.0550334286) / (0.1623845736 + 0.0633034485 * length)
-    second = (length - 0.7167754134) / (-0.0299471170 + 0.2003568473 * length)
-    third = (length - 1) / 0.3535533906
-    return (
-        0.8150671134 * math.exp(-0.5 * first * first)
-        + 0.4330049844 * math.exp(-0.5 * second * second)
-        + 0.1 * math.exp(-0.5 * third * third)
-    )
+    return gaussian(length, FIRST) + gaussian(length, SECOND) + gaussian(length, THIRD)
 
 
 def force_velocity(velocity):
     """f_v = d_1 asinh(d_2 v + d_3) + d_4, v in v_max."""
-    return -0.3211346128 * math.asinh(-8.149 * velocity - 0.374) + 0.8825327733
+    return D_1 * math.asinh(D_2 * velocity + D_3) + D_4
 
 
 def passive_force(length):
@@ -39,7 +44,7 @@ SLOWEST, FASTEST = force_velocity(-1), force_velocity(1)
 def velocity_from_force(ratio):
     """Inverse of f_v. Beyond v_max it goes on with slope 0.01, as numbers need and nature does not."""
     inside = min(FASTEST, max(SLOWEST, ratio))
-    return (math.sinh((inside - 0.8825327733) / -0.3211346128) + 0.374) / -8.149 + 0.01 * (ratio - inside)
+    return (math.sinh((inside - D_4) / D_1) - D_3) / D_2 + 0.01 * (ratio - inside)
 
 
 def tendon_stiffness(strain_at_max):
@@ -55,8 +60,8 @@ def tendon_force(strain, stiffness):
 def force_and_slope(velocity):
     """f_v and its slope, the whole of which `velocity_from_force` inverts."""
     inside = min(1.0, max(-1.0, velocity))
-    root = -8.149 * inside - 0.374
-    slope = 0.3211346128 * 8.149 / math.sqrt(root * root + 1) if velocity == inside else 100.0
+    root = D_2 * inside + D_3
+    slope = D_1 * D_2 / math.sqrt(root * root + 1) if velocity == inside else 100.0
     return force_velocity(inside) + 100 * (velocity - inside), slope
 
 

@@ -10,6 +10,7 @@ from parts.calls import Tables, primitive
 
 modes = pytest.mark.parametrize("mode", ["rapid", "normal"])
 THELEN = {"activation_time": 0.015, "deactivation_time": 0.050}
+SHARP = {"smoothing": 10.0}
 
 
 def time_to(reference: str, begin: float, excitation: float, level: float, **values: float) -> float:
@@ -30,7 +31,9 @@ def time_to(reference: str, begin: float, excitation: float, level: float, **val
         ("activation/first_order", {}, 0.010, 0.010),
         ("activation/two_constants", THELEN, 0.01578, 0.03574),
         ("activation/two_constants", {}, 0.01052, 0.02859),
-        ("activation/degroote2016", {}, 0.01578, 0.04288),
+        ("activation/degroote2016", SHARP, 0.01578, 0.04288),
+        # With the paper's b = 0.1: the inverse of the rate, integrated over the activation.
+        ("activation/degroote2016", {}, 0.023163, 0.028439),
     ],
 )
 def test_times_of_a_step(reference: str, values: dict[str, float], rise: float, fall: float) -> None:
@@ -55,6 +58,7 @@ def test_the_smooth_one_is_the_other_far_from_rest(mode: str) -> None:
     rates = []
     for reference in ("activation/two_constants", "activation/degroote2016"):
         values = {"activation_time": 0.015, "deactivation_time": 0.060, "excitation": 1.0, "level": 0.1}
+        values |= SHARP if "degroote2016" in reference else {}
         tables = Tables(primitive(reference)).put(values)
         tables.call("update", mode, 1e-6)
         rates.append((tables.x.level - 0.1) / 1e-6)
@@ -62,10 +66,11 @@ def test_the_smooth_one_is_the_other_far_from_rest(mode: str) -> None:
     assert rates[1] == pytest.approx(rates[0], rel=1e-6)
 
 
-def test_the_smooth_one_by_its_equation() -> None:
+@pytest.mark.parametrize(("values", "smoothing"), [({}, 0.1), (SHARP, 10)])
+def test_the_smooth_one_by_its_equation(values: dict[str, float], smoothing: float) -> None:
     for level, excitation in np.random.default_rng([1]).uniform(0.02, 1, (50, 2)):
-        tables = Tables(primitive("activation/degroote2016")).put({"excitation": excitation, "level": level})
+        tables = Tables(primitive("activation/degroote2016")).put({"excitation": excitation, "level": level, **values})
         tables.call("update", "rapid", 1e-4)
-        f, s = 0.5 * math.tanh(10 * (excitation - level)), 0.5 + 1.5 * level
+        f, s = 0.5 * math.tanh(smoothing * (excitation - level)), 0.5 + 1.5 * level
         rate = ((f + 0.5) / (0.015 * s) + s / 0.060 * (0.5 - f)) * (excitation - level)
         assert tables.x.level - level == pytest.approx(rate * 1e-4, rel=1e-9)

@@ -44,6 +44,16 @@ def test_curves() -> None:
     assert {x: pytest.approx(function("tendon_force")(x, stiffness), abs=1e-6) for x in TENDON} == TENDON
 
 
+@pytest.mark.parametrize("muscle", [MUSCLE, "muscle/rigid_tendon"])
+def test_curves_to_the_last_digit(muscle: str) -> None:
+    """Against the published equations with OpenSim's digits, evaluated with 40 digits."""
+    functions = primitive(muscle).cls.__dict__["output"].__func__.__globals__
+    active = {0.5: 0.0541121530142743, 0.8: 0.8364395661146517, 1: 1, 1.3: 0.5811888983785029}
+    velocity = {-1: 0, -0.5: 0.2340363935488038, -0.1: 0.745171585030237, 0: 1, 0.25: 1.4007657507180785}
+    assert {x: pytest.approx(functions["active_force"](x), abs=5e-16) for x in active} == active
+    assert {x: pytest.approx(functions["force_velocity"](x), abs=5e-16) for x in velocity} == velocity
+
+
 def test_passive_force_begins_at_a_fifth() -> None:
     assert function("passive_force")(0.2) == 0
     assert function("passive_force")(0.1) == 0
