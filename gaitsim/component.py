@@ -59,7 +59,7 @@ class Points:
 
 @dataclass(frozen=True)
 class Series:
-    """A recorded curve: `size` numbers at equal distances, which no search changes.
+    """A recorded curve: `size` numbers at equal distances from 0 to 100 % of a cycle, which no search changes.
 
     A spec names a column of a table beside the components, or writes a list; either is
     brought to this size: `norms/fukuchi2018_walking.knee_flexion`, `[0 deg, 60 deg, 0 deg]`.

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaitsim.parts.find import Library
-from gaitsim.parts.table import resampled
 from gaitsim.units import parse_unit
 
 Floats = NDArray[np.float64]
@@ -63,9 +62,9 @@ def read_norm(column: str, library: Library, table: str = WALKING) -> Norm:
     Errors: InvalidSpec for a table that is not there, KeyError for a column.
     """
     found = library.table(table)
-    mean = np.array(resampled(found.over, found.columns[column], POINTS))
-    spread = found.columns.get(f"{column}_sd")
-    deviation = None if spread is None else np.array(resampled(found.over, spread, POINTS))
+    mean = np.array(found.curve(column, POINTS))
+    spread = f"{column}_sd"
+    deviation = np.array(found.curve(spread, POINTS)) if spread in found.columns else None
     return Norm(f"{table}.{column}", found.units[column], mean, deviation, found.recorded_by)
 
 

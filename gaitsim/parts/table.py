@@ -1,7 +1,9 @@
 """Tables of recorded curves beside the components: library/norms/fukuchi2018_walking.csv and their like.
 
 Lines that begin with # say what it is, its source and its licence. Then come a row of names with
-units, such as `knee_flexion [deg]`, and rows of numbers; the first column says where each row lies.
+units, such as `knee_flexion [deg]`, and rows of numbers; the first column says where in the cycle each
+row lies, in %. Columns are separated by commas or, as spreadsheets of many languages write them, by
+semicolons; beside semicolons a decimal comma is read as well.
 """
 
 from __future__ import annotations
@@ -9,20 +11,24 @@ from __future__ import annotations
 import csv
 import math
 import re
-from collections.abc import Iterable
+from collections import Counter
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gaitsim.errors import Fault, InvalidSpec, Mark
+from gaitsim.errors import Fault, Faults, InvalidSpec, Mark
 from gaitsim.parts.load import as_lines
 from gaitsim.spec.document import text_of
 from gaitsim.units import UnknownUnit, parse_unit
 
 Floats = NDArray[np.float64]
+Row = tuple[Mark, list[str]]
 _NAME = re.compile(r"(\w+) \[(.+)\]")
+_HOLE = 0.1  # of the cycle: over more than this, straight lines between rows are no recorded curve
+_ROUNDING = 1e-9
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,49 +48,119 @@ class Table:
         lines = (line.partition(":") for line in self.about.splitlines())
         return next((rest.strip() for word, _, rest in lines if word == "source"), "")
 
+    def curve(self, column: str, count: int) -> tuple[float, ...]:
+        """A column at `count` equal distances from 0 to 100 % of the cycle, in SI."""
+        return resampled(self.over, self.columns[column], count)
+
 
 def load_table(path: Path, shown: str) -> Table:
-    """Read a table. Errors: InvalidSpec with the line."""
+    """Read a table. Errors: InvalidSpec with every row that breaks a rule."""
     text = as_lines(text_of(path, shown, "table"))
-    lines = text.splitlines()
-    about = [line.lstrip("# ") for line in lines if line.startswith("#")]
-    rows = [(n, line) for n, line in enumerate(lines, start=1) if line.strip() and not line.startswith("#")]
-    names = [_name(word, Mark(shown, rows[0][0])) for word in next(csv.reader([rows[0][1]]))] if rows else []
-    if len(names) < 2 or len(rows) < 3:
+    about, rows, separator = _split(text.removeprefix("\ufeff"), shown)
+    if len(rows) < 3:
         rule = "a table has a row of names with units, such as cycle [%],knee_flexion [deg], and two rows of numbers"
         raise InvalidSpec(Fault(f"{rule} or more.", Mark(shown)))
-    numbers = np.array([list(_numbers(line, len(names), Mark(shown, n))) for n, line in rows[1:]])
-    if not np.all(np.diff(numbers[:, 0]) > 0):
-        raise InvalidSpec(Fault(f"the first column, {names[0][0]}, must grow from row to row.", Mark(shown)))
-    numbers *= [parse_unit(unit).factor for _, unit in names]
-    columns = {name: numbers[:, i] for i, (name, _) in enumerate(names) if i}
-    return Table(path, text, "\n".join(about), numbers[:, 0], columns, dict(names[1:]))
+    heads, faults = _heads(rows[0]), Faults()
+    numbers = [list(_numbers(row, len(heads), separator == ";", faults)) for row in rows[1:]]
+    faults.raise_if_any()
+    over = parse_unit(heads[0][1]).factor * np.array([row[0] for row in numbers])
+    _check_cycle(over, [mark for mark, _ in rows[1:]], heads[0][0], faults)
+    faults.raise_if_any()
+    table = np.array(numbers) * [parse_unit(unit).factor for _, unit in heads]
+    columns = {name: table[:, i] for i, (name, _) in enumerate(heads) if i}
+    return Table(path, text, "\n".join(about), table[:, 0], columns, dict(heads[1:]))
 
 
 def resampled(over: Floats, values: Floats, count: int) -> tuple[float, ...]:
-    """A curve at `count` equal distances from its first place to its last, straight between its points."""
-    return tuple(float(v) for v in np.interp(np.linspace(over[0], over[-1], count), over, values))
+    """A curve at `count` equal distances from 0 to 100 % of the cycle, straight between its points.
+
+    over: shares of the cycle, 0 to 1, growing. A cycle begins again where it ends, so what lacks before
+    the first point or behind the last lies between these two.
+    """
+    return tuple(float(v) for v in np.interp(np.linspace(0, 1, count), over, values, period=_period(over)))
 
 
-def _name(word: str, mark: Mark) -> tuple[str, str]:
-    found = _NAME.fullmatch(word.strip())
-    if found is None:
-        raise InvalidSpec(Fault(f'"{word}" is no name with a unit; write such as knee_flexion [deg].', mark))
-    try:
-        return found[1], parse_unit(found[2]).text
-    except UnknownUnit as error:
-        raise InvalidSpec(Fault(f'"{found[2]}" is no known unit; write such as knee_flexion [deg].', mark)) from error
+def _period(over: Floats) -> float | None:
+    """None for points that reach from 0 to 1: the values there need not be the same."""
+    return None if over[0] <= 0 and over[-1] >= 1 else 1.0
 
 
-def _numbers(line: str, count: int, mark: Mark) -> Iterable[float]:
-    words = next(csv.reader([line]))
+def _split(text: str, shown: str) -> tuple[list[str], list[Row], str]:
+    """What the table says of itself, its rows as words, and what separates these; empty rows do not count."""
+    about, rows, separator = list[str](), list[Row](), ","
+    for n, line in enumerate(text.splitlines(), start=1):
+        if line.startswith("#"):
+            about.append(line.lstrip("# "))
+            continue
+        if not rows and ";" in line:
+            separator = ";"
+        words = [word.strip() for word in next(csv.reader([line], delimiter=separator), [])]
+        if any(words):
+            rows.append((Mark(shown, n), words))
+    return about, rows, separator
+
+
+def _heads(row: Row) -> list[tuple[str, str]]:
+    """Names and units of all columns. Errors: InvalidSpec."""
+    place, words = row
+    faults, found = Faults(), []
+    for word in words:
+        head = _NAME.fullmatch(word)
+        if head is None:
+            faults.add(f'"{word}" is no name with a unit; write such as knee_flexion [deg].', place)
+            continue
+        try:
+            found.append((head[1], parse_unit(head[2]).text))
+        except UnknownUnit:
+            faults.add(f'"{head[2]}" is no known unit; write such as knee_flexion [deg].', place)
+    faults.raise_if_any()
+    if len(found) < 2:
+        faults.add("there is one column; a curve needs another beside it.", place)
+    for name, count in Counter(name for name, _ in found).items():
+        if count > 1:
+            faults.add(f"{count} columns are named {name}; give each a name of its own.", place)
+    name, unit = found[0]
+    if not parse_unit(unit).dimension.plain:
+        rule = f"{name} is in {unit}; the first column says where in the cycle a row lies, as a share"
+        faults.add(f"{rule}: write such as cycle [%], 0 to 100.", place)
+    faults.raise_if_any()
+    return found
+
+
+def _check_cycle(over: Floats, marks: Sequence[Mark], name: str, faults: Faults) -> None:
+    """Rows grow, lie within the cycle and cover it."""
+
+    def told(share: float) -> str:
+        return f"{100 * share:.6g} %"
+
+    for before, now, mark, place in zip(over, over[1:], marks, marks[1:], strict=False):
+        if now == before:
+            faults.add(f"{name} is {told(now)}, as in line {mark.line}; keep one of the two rows.", place)
+        elif now < before:
+            faults.add(f"{name} is {told(now)} after {told(before)}; put the rows in order, one cycle only.", place)
+        elif now - before > _HOLE + _ROUNDING:
+            rule = f"no row lies between {told(before)} and {told(now)} of the cycle"
+            faults.add(f"{rule}; add some, as a recorded curve has one each {told(_HOLE)} or closer.", place)
+    for share, place in zip(over, marks, strict=True):
+        if not -_ROUNDING <= share <= 1 + _ROUNDING:
+            faults.add(f"{name} is {told(share)}, and a cycle goes from 0 to 100 %; check unit and rows.", place)
+    closing, widest = over[0] + 1 - over[-1], float(np.max(np.diff(over)))
+    if not faults.found and closing > widest + _ROUNDING:
+        rule = f"the rows cover {told(over[0])} to {told(over[-1])} of the cycle, and a curve covers 0 to 100 %"
+        faults.add(f"{rule}; add the rows that are missing. Nothing is stretched or guessed.", marks[-1])
+
+
+def _numbers(row: Row, count: int, decimal_comma: bool, faults: Faults) -> Iterable[float]:
+    """The numbers of a row; a word that is none is a fault."""
+    place, words = row
     if len(words) != count:
-        raise InvalidSpec(Fault(f"this row has {len(words)} numbers, and there are {count} names.", mark))
+        faults.add(f"this row has {len(words)} numbers, and there are {count} names.", place)
     for word in words:
         try:
-            value = float(word)
+            value = float(word.replace(",", ".") if decimal_comma else word)
         except ValueError:
             value = math.nan
         if not math.isfinite(value):
-            raise InvalidSpec(Fault(f'"{word}" is no number.', mark))
+            said = f'"{word}" is no number' if word else "a number is missing"
+            faults.add(f"{said}; write such as 12.5, or remove the row.", place)
         yield value

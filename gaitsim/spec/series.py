@@ -52,4 +52,4 @@ def read_series(
         rule = f"{name} takes {measured(parse_unit(declared.unit))} [{declared.unit}]; choose another column."
         faults.add(f"{words} but {rule}", node.mark, address)
         return None
-    return Recording(resampled(table.over, table.columns[column], declared.size), text, table.recorded_by)
+    return Recording(table.curve(column, declared.size), text, table.recorded_by)

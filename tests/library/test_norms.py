@@ -62,16 +62,54 @@ def test_resampling_is_straight_between_points() -> None:
     assert resampled(over, np.array([0.0, 1.0, 4.0]), 5) == (0, 0.5, 1, 2.5, 4)
 
 
+def _even(low: int, high: int, step: int = 2) -> str:
+    return "cycle [%],knee [deg]\n" + "".join(f"{at},{at / 2}\n" for at in range(low, high + 1, step))
+
+
 @pytest.mark.parametrize(
     ("text", "said"),
     [
         ("# only words\n", "bad.csv: a table has a row of names with units, such as cycle [%],knee_flexion [deg], "),
         ("cycle [%],knee\n0,1\n1,2\n", 'bad.csv:1: "knee" is no name with a unit; write such as knee_flexion [deg].'),
         ("cycle [%],knee [dog]\n0,1\n1,2\n", 'bad.csv:1: "dog" is no known unit; write such as knee_flexion [deg].'),
+        ("cycle [%]\n0\n1\n", "bad.csv:1: there is one column; a curve needs another beside it."),
+        (
+            "cycle [%],knee [deg],knee [rad]\n0,1,1\n1,1,1\n",
+            "bad.csv:1: 2 columns are named knee; give each a name of its own.",
+        ),
+        (
+            "time [s],knee [deg]\n0,1\n1,2\n",
+            "bad.csv:1: time is in s; the first column says where in the cycle a row lies, as a share: "
+            "write such as cycle [%], 0 to 100.",
+        ),
         ("cycle [%],knee [deg]\n0,1\n1\n", "bad.csv:3: this row has 1 numbers, and there are 2 names."),
-        ("cycle [%],knee [deg]\n0,1\n1,x\n", 'bad.csv:3: "x" is no number.'),
-        ("cycle [%],knee [deg]\n0,1\n1,nan\n", 'bad.csv:3: "nan" is no number.'),
-        ("cycle [%],knee [deg]\n1,1\n0,2\n", "bad.csv: the first column, cycle, must grow from row to row."),
+        (
+            "cycle [%],knee [deg]\n0,1\n1,x\n2,nan\n3,\n",
+            'bad.csv:3: "x" is no number; write such as 12.5, or remove the row.\n'
+            'bad.csv:4: "nan" is no number; write such as 12.5, or remove the row.\n'
+            "bad.csv:5: a number is missing; write such as 12.5, or remove the row.",
+        ),
+        (
+            "cycle [%],knee [deg]\n0,1\n4,1\n2,2\n2,3\n",
+            "bad.csv:4: cycle is 2 % after 4 %; put the rows in order, one cycle only.\n"
+            "bad.csv:5: cycle is 2 %, as in line 4; keep one of the two rows.",
+        ),
+        (
+            _even(0, 58),
+            "bad.csv:31: the rows cover 0 % to 58 % of the cycle, and a curve covers 0 to 100 %; "
+            "add the rows that are missing. Nothing is stretched or guessed.",
+        ),
+        (
+            _even(0, 20) + _even(40, 100).partition("\n")[2],
+            "bad.csv:13: no row lies between 20 % and 40 % of the cycle; "
+            "add some, as a recorded curve has one each 10 % or closer.",
+        ),
+        (_even(0, 102), "bad.csv:53: cycle is 102 %, and a cycle goes from 0 to 100 %; check unit and rows."),
+        (
+            _even(0, 10).replace("[%]", "[1]"),
+            "bad.csv:3: no row lies between 0 % and 200 % of the cycle; "
+            "add some, as a recorded curve has one each 10 % or closer.",
+        ),
     ],
 )
 def test_a_table_with_a_mistake_says_where(tmp_path: Path, text: str, said: str) -> None:
@@ -79,6 +117,22 @@ def test_a_table_with_a_mistake_says_where(tmp_path: Path, text: str, said: str)
     with pytest.raises(InvalidSpec) as raised:
         load_table(tmp_path / "bad.csv", "bad.csv")
     assert str(raised.value).startswith(said)
+
+
+def test_a_table_without_its_last_row_ends_where_it_begins(tmp_path: Path) -> None:
+    (tmp_path / "open.csv").write_text(_even(0, 98))
+    curve = load_table(tmp_path / "open.csv", "open.csv").curve("knee", 101)
+    assert [math.degrees(curve[at]) for at in (0, 58, 98, 99, 100)] == pytest.approx([0, 29, 49, 24.5, 0])
+
+
+def test_a_table_of_a_spreadsheet_is_the_same_table(tmp_path: Path) -> None:
+    shipped = (FOLDER / "norms" / "fukuchi2018_walking.csv").read_text(encoding="utf-8")
+    words, head, rows = shipped.partition("cycle")
+    written = words + (head + rows).replace(",", ";").replace(".", ",") + ";;;;;;\n"
+    (tmp_path / "excel.csv").write_text(written.replace("\n", "\r\n"), encoding="utf-8-sig", newline="")
+    found, expected = load_table(tmp_path / "excel.csv", "excel.csv"), table("fukuchi2018_walking")
+    assert (found.recorded_by, found.units) == (expected.recorded_by, expected.units)
+    assert [list(found.columns[name]) for name in found.units] == [list(expected.columns[n]) for n in expected.units]
 
 
 @pytest.mark.parametrize("dt", [0.01, 0.001])  # at 1 ms a stride has more steps than there is room for
