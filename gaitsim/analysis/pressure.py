@@ -33,9 +33,14 @@ class Pressure:
 
     @property
     def middle_at(self) -> float:
-        """Share of stance, from 0 to 1, after which the mean is beyond the middle of the foot; nan if it never is."""
-        beyond = np.flatnonzero(self.over_stance.mean > self.length / 2)
-        return float(beyond[0]) / (POINTS - 1) if beyond.size else float("nan")
+        """Share of stance, from 0 to 1, at which the mean passes the middle of the foot; nan if it never does.
+
+        Where it passes more than once, the last time: a foot that slaps down is on its ball for a moment and back
+        on its heel, and whether the mean of such moments is beyond the middle is chance.
+        """
+        beyond = self.over_stance.mean > self.length / 2
+        passing = np.flatnonzero(beyond & ~np.concatenate([[False], beyond[:-1]]))
+        return float(passing[-1]) / (POINTS - 1) if passing.size else float("nan")
 
 
 def pressure(replay: Replay, leg: Leg) -> Pressure | None:

@@ -54,6 +54,16 @@ def test_it_goes_from_heel_to_ball_as_the_load_does() -> None:
     assert found.middle_at == pytest.approx(0.51)
 
 
+@pytest.mark.parametrize("slap", [0.4, 0.8])
+def test_a_slap_of_the_foot_is_no_passing_of_its_middle(slap: float) -> None:
+    """At 4 % of stance the ball strikes the ground with less or more than half of the load, and rebounds."""
+    share = stood("r")
+    ball = np.where(np.abs(share - 0.04) < 0.01, slap, share)
+    found = of(walk({**pressed("r", 1 - ball, ball), **placed("r", 0.3, 0.5)}), "r")
+    assert (found.over_stance.mean.max() > 0.1, bool((found.over_stance.mean[:10] > 0.1).any())) == (True, slap > 0.5)
+    assert found.middle_at == pytest.approx(0.51)
+
+
 def test_forces_weigh_the_places() -> None:
     replay = walk({**pressed("r", 0.3 + 0 * stood("r"), 0.9 + 0 * stood("r")), **placed("r", 0.3, 0.5)})
     assert of(replay, "r").over_stance.mean == pytest.approx(0.15)
