@@ -7,36 +7,29 @@ import re
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cache
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from pint import UnitRegistry
 
 _BASES = ("length", "mass", "time", "angle", "temperature", "current", "any")
 
 # The field's units and no others: a short list that errors can print. SI brochure, 9th edition.
-_DEFINITIONS = """
-mega- = 1e6 = M-
-kilo- = 1e3 = k-
-centi- = 1e-2 = c-
-milli- = 1e-3 = m-
-micro- = 1e-6 = u-
-meter = [length] = m
-gram = [mass] = g
-second = [time] = s
-radian = [angle] = rad
-kelvin = [temperature] = K
-ampere = [current] = A
-minute = 60 * second = min
-hour = 3600 * second = h
-degree = 3.141592653589793 / 180 * radian = deg
-percent = 0.01 = %
-hertz = 1 / second = Hz
-newton = kilogram * meter / second ** 2 = N
-joule = newton * meter = J
-watt = joule / second = W
-pascal = newton / meter ** 2 = Pa
-"""
+# Each has a name, and is so many of a base quantity or of other units, in SI.
+_DEFINITIONS: dict[str, tuple[str, float, str]] = {
+    "m": ("meter", 1.0, "length"),
+    "g": ("gram", 1e-3, "mass"),
+    "s": ("second", 1.0, "time"),
+    "rad": ("radian", 1.0, "angle"),
+    "K": ("kelvin", 1.0, "temperature"),
+    "A": ("ampere", 1.0, "current"),
+    "min": ("minute", 60.0, "s"),
+    "h": ("hour", 3600.0, "s"),
+    "deg": ("degree", math.pi / 180, "rad"),
+    "%": ("percent", 0.01, "1"),
+    "Hz": ("hertz", 1.0, "1/s"),
+    "N": ("newton", 1.0, "kg m/s^2"),
+    "J": ("joule", 1.0, "N m"),
+    "W": ("watt", 1.0, "J/s"),
+    "Pa": ("pascal", 1.0, "N/m^2"),
+}
+_PREFIXES = {"M": ("mega", 1e6), "k": ("kilo", 1e3), "c": ("centi", 1e-2), "m": ("milli", 1e-3), "u": ("micro", 1e-6)}
 _NAMES = (
     *("m", "cm", "mm", "km", "g", "kg", "s", "ms", "min", "h", "rad", "deg", "N", "kN", "J", "kJ", "W", "kW"),
     *("Pa", "kPa", "MPa", "Hz", "K", "A", "%"),
@@ -138,13 +131,6 @@ class Unit:
 
 
 @cache
-def _registry() -> UnitRegistry[Any]:
-    from pint import UnitRegistry
-
-    return UnitRegistry(_DEFINITIONS.strip().splitlines(), cache_folder=None)
-
-
-@cache
 def parse_unit(text: str) -> Unit:
     """The unit that a text names: N, kg m^2, m/s^2, deg/s, %, 1; `*` leaves it open.
 
@@ -154,20 +140,100 @@ def parse_unit(text: str) -> Unit:
         return Unit("1", 1.0, Dimension())
     if text == "*":
         return Unit("*", 1.0, ANY)
-    if not re.fullmatch(r"[A-Za-z%0-9*/^ ()-]+", text):
-        raise UnknownUnit(text)
     try:
-        quantity = _registry().Quantity(1, text.replace("%", " percent ")).to_base_units()
-    except Exception as error:  # pint raises its own, tokenizer and arithmetic errors alike
+        factor, dimension = _Reader(text).whole()
+    except (LookupError, ValueError, ArithmeticError) as error:
         raise UnknownUnit(text) from error
-    powers = {
-        name.strip("[]"): Fraction(str(power)).limit_denominator(1000)
-        for name, power in quantity.dimensionality.items()
-    }
-    dimension = Dimension(tuple(powers.get(base, Fraction(0)) for base in _BASES))
-    # pint's base of mass is the gram; SI's is the kilogram.
-    factor = float(quantity.magnitude) * 1e-3 ** float(powers.get("mass", 0))
     return Unit(text, _shortest(factor), dimension)
+
+
+_TOKEN = re.compile(r"\s*([A-Za-z]+|[0-9]+|%|\*\*|[*/^()-])")
+_Scaled = tuple[float, Dimension]  # the SI value of one, and its dimension
+
+
+class _Reader:
+    """Reads products, quotients and powers of units; a space multiplies, from left to right."""
+
+    def __init__(self, text: str) -> None:
+        self.tokens: list[str] = []
+        end = len(text.rstrip())
+        at = 0
+        while at < end:
+            match = _TOKEN.match(text, at)
+            if match is None:
+                raise ValueError(text)
+            self.tokens.append(match[1])
+            at = match.end()
+        self.tokens.append("")
+        self.tokens.reverse()
+
+    def whole(self) -> _Scaled:
+        found = self.product()
+        self.expect("")
+        return found
+
+    def product(self) -> _Scaled:
+        factor, dimension = self.powered()
+        while self.tokens[-1] not in (")", ""):
+            sign = self.tokens.pop() if self.tokens[-1] in ("*", "/") else "*"
+            other, of_other = self.powered()
+            factor = factor / other if sign == "/" else factor * other
+            dimension = dimension / of_other if sign == "/" else dimension * of_other
+        return factor, dimension
+
+    def powered(self) -> _Scaled:
+        word = self.tokens.pop()
+        if word == "(":
+            factor, dimension = self.product()
+            self.expect(")")
+        else:
+            factor, dimension = _named(word)
+        if self.tokens[-1] in ("^", "**"):
+            self.tokens.pop()
+            power = self.exponent()
+            factor, dimension = factor ** float(power), dimension**power
+        return factor, dimension
+
+    def exponent(self) -> Fraction:
+        if self.tokens[-1] != "(":
+            return self.whole_number()
+        self.tokens.pop()
+        power = self.whole_number()
+        if self.tokens[-1] == "/":
+            self.tokens.pop()
+            power /= self.whole_number()
+        self.expect(")")
+        return power
+
+    def whole_number(self) -> Fraction:
+        sign = -1 if self.tokens[-1] == "-" else 1
+        if sign < 0:
+            self.tokens.pop()
+        return Fraction(sign * int(self.tokens.pop()))
+
+    def expect(self, token: str) -> None:
+        if self.tokens.pop() != token:
+            raise ValueError(token)
+
+
+_SPELLINGS: dict[str, tuple[str, float]] = {
+    spelling: (symbol, factor)
+    for short, (long, factor) in (_PREFIXES | {"": ("", 1.0)}).items()
+    for symbol, (name, _, _) in _DEFINITIONS.items()
+    for spelling in (f"{short}{symbol}", f"{long}{name}", f"{long}{name}s")
+}
+
+
+def _named(word: str) -> _Scaled:
+    """A unit by one word, such as kN, degree or 1. Errors: LookupError."""
+    if word == "1":
+        return 1.0, Dimension()
+    symbol, prefix = _SPELLINGS[word]
+    _, factor, of = _DEFINITIONS[symbol]
+    if of in _BASES:
+        return prefix * factor, Dimension(tuple(Fraction(base == of) for base in _BASES))
+    other, dimension = _Reader(of).whole()
+    return prefix * factor * other, dimension
 
 
 def _shortest(factor: float) -> float:

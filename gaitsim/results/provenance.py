@@ -12,7 +12,7 @@ from typing import Any
 
 from gaitsim import __version__
 
-_LIBRARIES = ("mujoco", "numba", "numpy", "pydantic", "pint", "pyyaml", "cma")
+_LIBRARIES = ("mujoco", "numba", "numpy", "pydantic", "pyyaml", "cma")
 
 
 def provenance() -> dict[str, Any]:

@@ -47,7 +47,7 @@ def test_every_command_has_an_example_that_is_one(words: tuple[str, ...], capsys
     assert shlex.split(line.split(" Options")[0])
 
 
-HEAVY = ("numpy", "mujoco", "numba", "matplotlib", "distributed", "pint", "pydantic", "xarray", "rich")
+HEAVY = ("numpy", "mujoco", "numba", "matplotlib", "distributed", "pydantic", "xarray", "rich")
 
 
 @pytest.mark.parametrize("words", [(), ("run",), ("library", "show")], ids=" ".join)
