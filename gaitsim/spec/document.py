@@ -13,10 +13,9 @@ from typing import Any, Union
 import yaml
 
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, did_you_mean
-from gaitsim.spec.syntax import NO_ANCHORS, ONE_DOCUMENT, explained
+from gaitsim.spec.syntax import DEPTH_LIMIT, NO_ANCHORS, ONE_DOCUMENT, TOO_DEEP, explained
 
 SIZE_LIMIT = 5_000_000
-DEPTH_LIMIT = 100
 
 # libyaml where PyYAML has it: a tenth of the time, the same events and the same text.
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
@@ -199,8 +198,7 @@ class _Reader:
 
     def node(self, event: yaml.Event, depth: int) -> Node:
         if depth > DEPTH_LIMIT:
-            rule = f"this is nested more than {DEPTH_LIMIT} levels deep"
-            self.fault(f"{rule}; put an inner part into a composite of its own.", event)
+            self.fault(TOO_DEEP, event)
             self.faults.raise_if_any()
         mark = self.place(event)
         if isinstance(event, yaml.AliasEvent) or getattr(event, "anchor", None):

@@ -9,6 +9,7 @@ from pathlib import Path
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, Usage
 from gaitsim.spec import document
 from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, plain
+from gaitsim.spec.syntax import DEPTH_LIMIT
 
 VALUE_KEYS = frozenset({"value", "tune", "spread", "source"})
 _SECTIONS = frozenset(
@@ -87,7 +88,7 @@ def override(spec: Mapping, address: str, text: str, origin: str = "--set") -> M
     """The spec with one value set, laid over what stands at its address."""
     mark = Mark(f"{origin} {address}={text}")
     words = _sectioned(spec, _words(address, mark.file))
-    if len(words) > document.DEPTH_LIMIT:
+    if len(words) > DEPTH_LIMIT:
         raise Usage(f"{mark}: this address has {len(words)} words; name a part of the spec.")
     return _laid(spec, words, document.parse_value(text, mark.file), mark)
 

@@ -9,6 +9,8 @@ import yaml
 NO_ANCHORS = (
     "a spec has no anchors (&), aliases (*) or merge keys (<<); write extends: or a composite."
 )
+DEPTH_LIMIT = 100
+TOO_DEEP = f"this is nested more than {DEPTH_LIMIT} levels deep; put an inner part into a composite of its own."
 ONE_DOCUMENT = "one file holds one spec: put the second into a file of its own."
 _BRACED = re.compile(r"[^\s,\[\]{}:]*\{[^\s{}]*\}[^\s,\[\]{}]*")
 
@@ -26,6 +28,8 @@ def explained(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[str, int, 
     opener = lines[start.line][start.column : start.column + 1] if start.line < len(lines) else ""
     if letter == "\t" and not before.strip():
         return "YAML is not indented with tabs; write spaces.", *here
+    if "maximum nesting depth" in problem:  # libyaml's own limit, which it may meet before ours
+        return TOO_DEEP, *here
     if "cannot start any token" in problem:
         return f"a text may not begin with {letter}; put the whole text in quotes.", *here
     if "unexpected end of stream" in problem:
