@@ -9,6 +9,7 @@ from fractions import Fraction
 from functools import cache
 
 _BASES = ("length", "mass", "time", "angle", "temperature", "current", "any")
+_ANGLE = _BASES.index("angle")
 
 # The field's units and no others: a short list that errors can print. SI brochure, 9th edition.
 # Each has a name, and is so many of a base quantity or of other units, in SI.
@@ -80,8 +81,9 @@ class Dimension:
     @property
     def without_angle(self) -> Dimension:
         """As the audit sees it: rad = 1, or r*theta would be no length."""
-        angle = _BASES.index("angle")
-        return Dimension(tuple(Fraction(0) if i == angle else e for i, e in enumerate(self.exponents)))
+        if not self.exponents[_ANGLE]:
+            return self
+        return Dimension((*self.exponents[:_ANGLE], Fraction(0), *self.exponents[_ANGLE + 1 :]))
 
     @property
     def plain(self) -> bool:

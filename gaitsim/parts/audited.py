@@ -1,11 +1,14 @@
-"""Remembers which component files the audit found sound: they are not audited again."""
+"""Remembers which component files were found sound, and what their outputs depend on: they are not checked again."""
 
 from __future__ import annotations
 
 import contextlib
 import hashlib
+import json
 import os
+import secrets
 import sys
+from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
@@ -22,26 +25,32 @@ def cache_root() -> Path:
     return (Path(root) if root else Path.home() / ".cache") / "gaitsim"
 
 
-def is_sound(source: str) -> bool:
-    """Whether the audit, as it is now, has found no fault in this text."""
-    return _stamp(source).is_file()
+def sound_dependencies(source: str) -> dict[str, frozenset[str]] | None:
+    """The inputs that each output needs, of a text in which these checks have found no fault before; else None."""
+    try:
+        known = json.loads(_memory(source).read_text(encoding="utf-8"))
+        return {str(output): frozenset(map(str, inputs)) for output, inputs in known.items()}
+    except (OSError, ValueError, AttributeError, TypeError):
+        return None
 
 
-def remember(source: str) -> None:
-    """The audit has found no fault in this text. Where nothing can be written, it is audited again."""
-    stamp = _stamp(source)
+def remember(source: str, dependencies: Mapping[str, frozenset[str]]) -> None:
+    """This text has no fault. Where nothing can be written, it is checked again."""
+    memory = _memory(source)
+    draft = memory.with_name(f"{memory.name}.{secrets.token_hex(4)}")
     with contextlib.suppress(OSError):
-        stamp.parent.mkdir(parents=True, exist_ok=True)
-        stamp.touch()
+        memory.parent.mkdir(parents=True, exist_ok=True)
+        draft.write_text(json.dumps({name: sorted(inputs) for name, inputs in dependencies.items()}), encoding="utf-8")
+        draft.replace(memory)
 
 
-def _stamp(source: str) -> Path:
-    return cache_root() / "audited" / hashlib.sha256(f"{_rules()}|{source}".encode()).hexdigest()[:24]
+def _memory(source: str) -> Path:
+    return cache_root() / "audited" / f"{hashlib.sha256(f'{_rules()}|{source}'.encode()).hexdigest()[:24]}.json"
 
 
 @cache
 def _rules() -> str:
-    """The digest of all that the audit's answer depends on besides the text."""
+    """The digest of all that the answer depends on besides the text."""
     folder = Path(gaitsim.__file__).parent
     digest = hashlib.sha256(sys.version.encode())
     for path in sorted(path for pattern in _RULES for path in folder.glob(pattern)):

@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+import ast
 import hashlib
 import io
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from gaitsim.component import Component, Input, Link, Output, Parameter, Part
 from gaitsim.errors import Fault, InvalidComponent, Mark, did_you_mean
 from gaitsim.parts.audit import audit
-from gaitsim.parts.audited import is_sound, remember
+from gaitsim.parts.audited import remember, sound_dependencies
 from gaitsim.parts.check import check_names, declaration_marks, parse
 from gaitsim.parts.dependency import output_dependencies
 from gaitsim.parts.ieee import ieee_math
@@ -39,26 +40,27 @@ def load_primitive(reference: str, path: Path, shown: str) -> Primitive:
     Errors: InvalidComponent with every fault of the file.
     """
     source = as_lines(text_of(path, shown, "component"))
-    tree = parse(source, shown)
-    cls = component_class(execute(source, shown, ieee_math()))
-    faults = check_names(tree, cls.declarations, shown, source.splitlines())
-    if not faults:
-        faults = _part_faults(cls, declaration_marks(tree, shown, source.splitlines()))
-    if not faults and not is_sound(source):
-        faults = list(audit(source, shown).faults)
-        if not faults:
-            remember(source)
-    if faults:
-        raise InvalidComponent(faults)
-    return Primitive(
-        reference,
-        path,
-        shown,
-        source,
-        digest_of(source),
-        cls,
-        output_dependencies(tree, cls.declarations),
-        frozenset(name for name in FUNCTIONS if name in vars(cls)),
+    dependencies = sound_dependencies(source)
+    if dependencies is None:
+        tree = parse(source, shown)
+        cls = component_class(execute(source, shown, ieee_math()))
+        if faults := _faults(source, tree, cls, shown):
+            raise InvalidComponent(faults)
+        dependencies = output_dependencies(tree, cls.declarations)
+        remember(source, dependencies)
+    else:
+        cls = component_class(execute(source, shown, ieee_math()))
+    functions = frozenset(name for name in FUNCTIONS if name in vars(cls))
+    return Primitive(reference, path, shown, source, digest_of(source), cls, dependencies, functions)
+
+
+def _faults(source: str, tree: ast.Module, cls: type[Component], shown: str) -> Sequence[Fault]:
+    """What is wrong in a file that Python could run: the first kind of mistakes that there is."""
+    lines = source.splitlines()
+    return (
+        check_names(tree, cls.declarations, shown, lines)
+        or _part_faults(cls, declaration_marks(tree, shown, lines))
+        or audit(source, shown).faults
     )
 
 

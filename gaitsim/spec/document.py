@@ -165,7 +165,9 @@ class _Reader:
         text = self.lines[line] if line < len(self.lines) else ""
         if column > 200:  # a frame of a very long line shows nothing
             text = ""
-        shown = "".join(letter if letter.isprintable() else " " for letter in text[:240])
+        shown = text[:240]
+        if not shown.isprintable():
+            shown = "".join(letter if letter.isprintable() else " " for letter in shown)
         return Mark(self.file, line + 1, column + 1, shown)
 
     def document(self) -> Node | None:

@@ -1,0 +1,60 @@
+"""A component file that was found sound is not checked again, and what was remembered of it is not trusted blindly."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gaitsim.parts import audited, load
+from gaitsim.parts.find import shipped_folder
+
+MUSCLE = shipped_folder() / "muscle" / "geyer2003.py"
+
+
+@pytest.fixture
+def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
+    monkeypatch.setenv("GAITSIM_CACHE", str(tmp_path))
+    return tmp_path
+
+
+@pytest.fixture
+def audits(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    done: list[str] = []
+    real = load.audit
+
+    def counted(source: str, file: str) -> object:
+        done.append(file)
+        return real(source, file)
+
+    monkeypatch.setattr(load, "audit", counted)
+    return done
+
+
+def test_a_sound_file_is_checked_once_and_keeps_its_dependencies(cache: Path, audits: list[str]) -> None:
+    first = load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py")
+    again = load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py")
+    assert audits == ["geyer2003.py"]
+    assert again.dependencies == first.dependencies
+    assert first.dependencies["force"]
+
+
+@pytest.mark.parametrize("damage", [b"", b"{", b"[]", b"3", b'{"force": 1}', b"\xff"])
+def test_a_damaged_memory_is_made_again(cache: Path, audits: list[str], damage: bytes) -> None:
+    first = load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py")
+    (memory,) = (cache / "audited").iterdir()
+    memory.write_bytes(damage)
+    again = load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py")
+    assert len(audits) == 2
+    assert again.dependencies == first.dependencies
+    assert audited.sound_dependencies(first.source) == first.dependencies
+
+
+def test_without_a_place_to_remember_a_file_is_checked_each_time(
+    audits: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("GAITSIM_CACHE", str(tmp_path / "file"))
+    for _ in range(2):
+        load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py")
+    assert len(audits) == 2
