@@ -1,30 +1,20 @@
 """One native kernel per component type, cached by the digest of everything it is made from.
 
-The component's file is copied as it is, so that line numbers hold, and a footer is appended that
-turns its functions into one C function. A cache folder is never edited: other content, other key.
+The component's file is taken as it is, so that line numbers hold, and a footer is appended that
+turns its functions into one C function.
 """
 
 from __future__ import annotations
 
-import hashlib
-import importlib.util
-import platform
 import re
-import shutil
-import sys
-import tempfile
 from functools import cache
-from pathlib import Path
-from types import ModuleType
+from typing import Any
 
-import llvmlite.binding
-import numba
-import numpy as np
+from numba import types
 from numba.core.errors import NumbaError
 
-from gaitsim import __version__
+from gaitsim.compiler.native import native
 from gaitsim.errors import Fault, InvalidComponent, Mark
-from gaitsim.parts.audited import cache_root
 from gaitsim.parts.primitive import Primitive
 
 START, OUTPUT, UPDATE = 0, 1, 2
@@ -33,7 +23,7 @@ _FOOTER = '''
 
 # Appended by gaitsim: the functions above as one C function.
 import numpy as _np
-from numba import carray as _carray, cfunc as _cfunc, njit as _njit, types as _types
+from numba import carray as _carray, njit as _njit
 
 _OPTIONS = {{"error_model": "numpy", "boundscheck": True}}
 _P = _np.dtype({parameters!r})
@@ -42,10 +32,8 @@ _X = _np.dtype({states!r})
 _Y = _np.dtype({outputs!r})
 {helpers}
 {functions}
-_POINTERS = (_types.voidptr,) * 4
 
 
-@_cfunc(_types.int64(_types.int64, *_POINTERS, _types.float64), cache=True, error_model="numpy")
 def kernel(stage, p, u, x, y, dt):
     parameters = _carray(p, 1, _P)[0]
     inputs = _carray(u, 1, _U)[0]
@@ -57,6 +45,7 @@ def kernel(stage, p, u, x, y, dt):
         return 1
     return 0
 '''
+_SIGNATURE = types.int64(types.int64, *[types.voidptr] * 4, types.float64)
 _ARGUMENTS = {
     "start": "parameters, inputs, states",
     "output": "parameters, inputs, states, outputs",
@@ -69,47 +58,15 @@ def address_of(component: Primitive) -> int:
 
     Errors: InvalidComponent if the component is not native code.
     """
-    return int(_module(component).kernel.address)
+    return int(_kernel(component).address)
 
 
 @cache
-def _module(component: Primitive) -> ModuleType:
-    folder = _folder(component)
-    name = f"gaitsim_kernel_{folder.name}"
-    specification = importlib.util.spec_from_file_location(name, folder / "kernel.py")
-    assert specification is not None and specification.loader is not None
-    module = importlib.util.module_from_spec(specification)
-    sys.modules[name] = module
+def _kernel(component: Primitive) -> Any:
     try:
-        specification.loader.exec_module(module)
+        return native("kernels", component.source + _footer(component), component.shown, "kernel", _SIGNATURE)
     except NumbaError as error:
         raise InvalidComponent(_explained(error, component)) from error
-    return module
-
-
-def _folder(component: Primitive) -> Path:
-    """The cache folder of a component, made complete or not at all."""
-    text = component.source + _footer(component)
-    key = hashlib.sha256(f"{text}|{_environment()}".encode()).hexdigest()[:24]
-    folder = cache_root() / "kernels" / key
-    if not (folder / "kernel.py").is_file():
-        folder.parent.mkdir(parents=True, exist_ok=True)
-        draft = Path(tempfile.mkdtemp(dir=folder.parent, prefix=f"{key}.partial."))
-        (draft / "kernel.py").write_text(text, encoding="utf-8")
-        try:
-            draft.rename(folder)
-        except OSError:  # another process was faster; its content is the same
-            shutil.rmtree(draft)
-    return folder
-
-
-@cache
-def _environment() -> str:
-    """What else the machine code depends on."""
-    processor = llvmlite.binding.get_host_cpu_name()
-    features = llvmlite.binding.get_host_cpu_features().flatten()
-    versions = [__version__, numba.__version__, np.__version__, platform.python_version()]
-    return "|".join([*versions, processor, features])
 
 
 def _footer(component: Primitive) -> str:

@@ -1,0 +1,120 @@
+"""Machine code is kept between processes; a cache that cannot be used ends nothing and is told of once."""
+
+from __future__ import annotations
+
+import ctypes
+import resource
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from numba import types
+
+from gaitsim import cache
+from gaitsim.compiler.native import native
+
+TEXT = "def thrice(x):\n    return 3.0 * x\n"
+DEAD_END = "so nothing is kept and each run compiles anew; set GAITSIM_CACHE to a folder that can be written"
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
+    """A cache of this test's own, in a process that has said nothing yet."""
+    said = list(cache._told())
+    cache._told().clear()
+    monkeypatch.setenv("GAITSIM_CACHE", str(tmp_path / "cache"))
+    yield tmp_path / "cache"
+    cache._told()[:] = said
+
+
+def thrice(number: float) -> float:
+    address = native("trials", TEXT, "<thrice>", "thrice", types.float64(types.float64)).address
+    return float(ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(address)(number))
+
+
+def said(caplog: pytest.LogCaptureFixture) -> list[str]:
+    found = [record.getMessage() for record in caplog.records]
+    caplog.clear()
+    return found
+
+
+def test_what_was_compiled_once_is_taken_from_the_cache(
+    folder: Path, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert thrice(2.0) == 6.0
+    (entry,) = (folder / "trials").iterdir()
+    before = entry.stat()
+    monkeypatch.setattr("numba.core.ccallback.CFunc._compile_uncached", None)
+    assert thrice(2.0) == 6.0
+    assert entry.stat().st_mtime_ns == before.st_mtime_ns
+    assert said(caplog) == []
+
+
+@pytest.mark.parametrize(
+    "damage",
+    [
+        lambda data: data[: len(data) // 2],
+        lambda data: b"",
+        lambda data: data[:-1] + bytes([data[-1] ^ 1]),
+        lambda data: bytes([data[0] ^ 1]) + data[1:],
+        lambda data: data + b"\0",
+        lambda data: bytes(len(data)),
+    ],
+    ids=["truncated", "empty", "last bit", "first bit", "longer", "zeros"],
+)
+def test_a_damaged_entry_is_made_again(
+    damage: Callable[[bytes], bytes], folder: Path, caplog: pytest.LogCaptureFixture
+) -> None:
+    assert thrice(2.0) == 6.0
+    (entry,) = (folder / "trials").iterdir()
+    entry.write_bytes(damage(entry.read_bytes()))
+    assert thrice(2.0) == 6.0
+    assert said(caplog) == [f"gaitsim: {entry} is damaged; it is made again."]
+    assert thrice(2.0) == 6.0
+    assert said(caplog) == []
+
+
+def test_an_entry_of_another_make_is_compiled_again(folder: Path, caplog: pytest.LogCaptureFixture) -> None:
+    assert thrice(2.0) == 6.0
+    (entry,) = (folder / "trials").iterdir()
+    cache.keep("trials", entry.name, b"no pickle of ours")
+    assert thrice(2.0) == 6.0
+    assert said(caplog) == [
+        "gaitsim: machine code in the cache cannot be used (UnpicklingError); it is compiled again."
+    ]
+
+
+def test_a_cache_that_is_a_file(folder: Path, caplog: pytest.LogCaptureFixture) -> None:
+    folder.write_text("no folder")
+    assert [thrice(2.0), thrice(3.0)] == [6.0, 9.0]
+    assert said(caplog) == [f"gaitsim: the cache {folder} cannot be used (Not a directory), {DEAD_END}."]
+
+
+def test_a_cache_where_no_folder_can_be_made(
+    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    monkeypatch.setenv("GAITSIM_CACHE", "/dev/null/x")
+    assert [thrice(2.0), thrice(3.0)] == [6.0, 9.0]
+    assert said(caplog) == [f"gaitsim: the cache /dev/null/x cannot be used (Not a directory), {DEAD_END}."]
+
+
+def test_a_full_cache_keeps_no_half_entry(folder: Path, caplog: pytest.LogCaptureFixture) -> None:
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (100, before[1]))
+    try:
+        assert [thrice(2.0), thrice(3.0)] == [6.0, 9.0]
+    finally:
+        resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    assert list((folder / "trials").iterdir()) == []
+    assert said(caplog) == [f"gaitsim: the cache {folder} cannot be used (File too large), {DEAD_END}."]
+
+
+def test_a_user_without_a_home(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -> None:
+    def nobody() -> Path:
+        raise RuntimeError("Could not determine home directory.")
+
+    for variable in ("GAITSIM_CACHE", "XDG_CACHE_HOME"):
+        monkeypatch.delenv(variable, raising=False)
+    monkeypatch.setattr(Path, "home", nobody)
+    assert [thrice(2.0), thrice(3.0)] == [6.0, 9.0]
+    assert said(caplog) == [f"gaitsim: this user has no home folder for a cache, {DEAD_END}."]
