@@ -88,11 +88,11 @@ def test_update_reads_the_same_past_as_output(mode: str) -> None:
 def test_a_tuned_delay_changes_without_compiling_anything(mode: str) -> None:
     simulator = Simulator(written(SPEC.replace("delay: 7 ms", TUNED)), mode)
     simulator.run()
-    compiled, assembly = kernel._module.cache_info().misses, simulator._loop.body.assembly
+    compiled, assembly = kernel._kernel.cache_info().misses, simulator._loop.body.assembly
     for steps in (7, 1, 60, 12.5, 1):
         sent, arrived = signals(simulator.run([steps * 1e-3], recorded=True))
         np.testing.assert_allclose(arrived, delayed(sent, steps, sent[0]), rtol=0, atol=1e-12)
-    assert kernel._module.cache_info().misses == compiled
+    assert kernel._kernel.cache_info().misses == compiled
     assert simulator._loop.body.assembly is assembly
 
 
