@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from gaitsim.errors import Mark, SimulationFailed
 from gaitsim.parts.primitive import Primitive
 from gaitsim.spec.expression import Expression
-from gaitsim.units import parse_unit
+from gaitsim.units import Unit, parse_unit
 
 WORLD = "world"
 TERMS = "terms"  # the input of an objective that the costs of its terms are added to
@@ -17,10 +17,13 @@ TERMS = "terms"  # the input of an objective that the costs of its terms are add
 
 @dataclass(frozen=True)
 class Number:
-    """One number of the model: fixed, free (tuned), or computed from numbers before it."""
+    """One number of the model: fixed, free (tuned), or computed from numbers before it.
+
+    unit: the one it is written in outside; inside, its value is in SI.
+    """
 
     address: str
-    unit: str
+    unit: Unit
     value: float = math.nan
     free: int | None = None
     expression: Expression | None = None
@@ -31,10 +34,13 @@ class Number:
 
 @dataclass(frozen=True)
 class Free:
-    """A tuned number: bounds, start and spread in SI, and every address it drives."""
+    """A tuned number: bounds, start and spread in SI, and every address it drives.
+
+    unit: the one it is written in outside.
+    """
 
     address: str
-    unit: str
+    unit: Unit
     low: float
     high: float
     start: float
@@ -42,6 +48,12 @@ class Free:
     source: str
     drives: tuple[str, ...]
     mark: Mark | None = field(default=None, compare=False)
+
+    def moved(self, value: float, start: float, origin: str) -> str:
+        """What is said of a start that was outside the bounds."""
+        said = self.unit.shown(value) + (f" from {origin}" if origin else "")
+        rule = f"{said} is outside {self.unit.span(self.low, self.high)}, so it starts at {self.unit.shown(start)}"
+        return f"warning: {self.address}: {rule}; widen tune, or tune it anew."
 
 
 @dataclass(frozen=True)
@@ -158,13 +170,19 @@ class Model:
         """The values of the free numbers that `run` uses."""
         return [free.start for free in self.free]
 
-    def started_at(self, values: Mapping[str, float]) -> Model:
-        """The same model with other starts, matched by address and clipped into their bounds."""
-        free = tuple(
-            replace(f, start=min(f.high, max(f.low, values[f.address]))) if f.address in values else f
-            for f in self.free
-        )
-        return replace(self, free=free)
+    def started_at(self, values: Mapping[str, float], origin: str = "") -> Model:
+        """The same model with other starts, in SI, matched by address.
+
+        One outside its bounds starts at the nearer bound, and a notice says so; `origin` is where it comes from.
+        """
+        free, moved = [], []
+        for each in self.free:
+            value = values.get(each.address, each.start)
+            start = min(each.high, max(each.low, value))
+            free.append(replace(each, start=start))
+            if start != value:
+                moved.append(each.moved(value, start, origin))
+        return replace(self, free=tuple(free), notices=(*self.notices, *moved))
 
     def values(self, candidate: Sequence[float] | None = None) -> list[float]:
         """Every number for a candidate: the values of `free`, in its order.
@@ -226,17 +244,11 @@ def recorded_signals(model: Model) -> tuple[Signal, ...]:
     found = []
     for part in model.parts:
         place = part.address
-        found += [Signal(f"{place}.{name}", _si(o.unit), o.doc) for name, o in part.type.outputs.items()]
+        found += [Signal(f"{place}.{name}", parse_unit(o.unit).si, o.doc) for name, o in part.type.outputs.items()]
         if not part.measure:
             states = {name: s for name, s in part.type.states.items() if s.size is None}
-            found += [Signal(f"{place}.{name}", _si(s.unit), s.doc, s.levels) for name, s in states.items()]
+            found += [Signal(f"{place}.{name}", parse_unit(s.unit).si, s.doc, s.levels) for name, s in states.items()]
     return tuple(found)
-
-
-def _si(unit: str) -> str:
-    """The unit that recorded numbers have: the declared one, or SI's where that is another (deg: rad)."""
-    known = parse_unit(unit)
-    return unit if known.factor == 1 else known.dimension.si
 
 
 def _input_unit(port: str, parts: Sequence[Part]) -> str:

@@ -131,6 +131,60 @@ class Unit:
     def article(self) -> str:
         return str(self.dimension)
 
+    @property
+    def si(self) -> str:
+        """The SI unit for the same, word by word: N/m for N/cm; itself if it is one."""
+        if self.factor == 1:
+            return self.text
+        return "1" if self.dimension.plain else re.sub(r"[A-Za-z%]+", lambda word: _coherent(word[0]), self.text)
+
+    def to_si(self, number: float) -> float:
+        """The value in SI of a number in this unit, as a spec's text gives it."""
+        return scaled(number, self.factor)
+
+    def of(self, value: float) -> float:
+        """The number in this unit of a value in SI: the shortest that reads back bit for bit.
+
+        Of some values none does (of every tenth angle between 1 and 2 deg); then the nearest.
+        """
+        if self.factor == 1 or not math.isfinite(value):
+            return value
+        near = value / self.factor
+        for digits in range(1, 18):
+            short = float(f"{near:.{digits}g}")
+            if self.to_si(short) == value:
+                return short
+        around = (math.nextafter(near, -math.inf), math.nextafter(near, math.inf))
+        return next((number for number in around if self.to_si(number) == value), near)
+
+    def exactly(self, value: float) -> str:
+        """A value in SI as text that reads back bit for bit: in this unit, or in SI's where no number of it does."""
+        number = self.of(value)
+        return _said(repr(number), self.text) if self.to_si(number) == value else _said(repr(value), self.si)
+
+    def shown(self, value: float) -> str:
+        """A value in SI as people read it: 5 deg."""
+        return _said(f"{self.of(value):g}", self.text)
+
+    def span(self, low: float, high: float) -> str:
+        """A range in SI as people read it: 5 to 40 deg."""
+        return _said(f"{self.of(low):g} to {self.of(high):g}", self.text)
+
+
+def _said(number: str, unit: str) -> str:
+    return number if unit == "1" else f"{number} {unit}"
+
+
+def _coherent(word: str) -> str:
+    """The SI unit of one word: Pa for MPa, kg for g, rad for deg, 1 for %."""
+    unit, bare = parse_unit(word), word[1:]
+    if unit.factor == 1:
+        return word
+    try:
+        return bare if parse_unit(bare).factor == 1 and bare else unit.dimension.si
+    except UnknownUnit:
+        return unit.dimension.si
+
 
 @cache
 def parse_unit(text: str) -> Unit:

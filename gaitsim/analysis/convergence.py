@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -16,6 +17,8 @@ from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import FONT, GREY, PALETTE, above, labelled, panels, shown_unit, whole_numbers
 from gaitsim.optimization.evaluation import Evaluation
 from gaitsim.optimization.journal import evaluations_in
+from gaitsim.results.manifest import format_of
+from gaitsim.units import parse_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -26,7 +29,7 @@ _LABEL_SPACE = 1.25  # of the span of scores that matters, above it
 
 @dataclass(frozen=True)
 class Tuned:
-    """One row of parameters.csv, in SI; nan where nothing is known."""
+    """One row of parameters.csv, in its unit; nan where nothing is known."""
 
     address: str
     unit: str
@@ -74,8 +77,8 @@ def scores_of(evaluations: list[Evaluation]) -> Scores:
     return Scores(tuple(generations), scores, sum(e.failed for e in evaluations))
 
 
-def tuned_in(folder: Path) -> list[Tuned]:
-    """The tuned numbers of a result; none if the table is missing or torn."""
+def tuned_in(folder: Path, manifest: Mapping[str, Any]) -> list[Tuned]:
+    """The tuned numbers of a result, in the units of its table; none if that is missing or torn."""
     path = folder / "parameters.csv"
     if not path.is_file():
         return []
@@ -87,8 +90,10 @@ def tuned_in(folder: Path) -> list[Tuned]:
                 continue
             try:
                 numbers = {name: float(row[name]) if row[name] else math.nan for name in names}
-                found.append(Tuned(row["address"], row["unit"], **numbers))
-            except (KeyError, TypeError, ValueError):
+                # The first format has SI numbers beside the unit of the declaration.
+                of = parse_unit(row["unit"]).of if format_of(manifest) == 1 else float
+                found.append(Tuned(row["address"], row["unit"], **{name: of(n) for name, n in numbers.items()}))
+            except (KeyError, TypeError, ValueError):  # UnknownUnit is a ValueError
                 continue
     return found
 
@@ -105,7 +110,7 @@ def convergence_figures(replay: Replay) -> list[Drawing]:
 
 def tuned_figures(replay: Replay) -> list[Drawing]:
     """The tuned numbers of a search within their bounds; none for what is no search."""
-    tuned = [t for t in tuned_in(replay.folder) if t.high > t.low] if replay.folder else []
+    tuned = [t for t in tuned_in(replay.folder, replay.manifest) if t.high > t.low] if replay.folder else []
     return [_within_bounds(tuned)] if tuned else []
 
 
@@ -185,7 +190,7 @@ def _within_bounds(tuned: list[Tuned]) -> Drawing:
     words = f" At a bound: {', '.join(edge)}." if edge else ""
     caption = (
         "Tuned numbers within the bounds of the search, which stand below the ends of the bars; the best value stands "
-        f"on the right. All in SI. Mean and standard deviation: the better half of the last generation.{words}"
+        f"on the right. Mean and standard deviation: the better half of the last generation.{words}"
     )
     return Drawing("tuned_parameters", "Tuned parameters within their bounds", caption, figure)
 

@@ -77,14 +77,15 @@ def tuned_table(replay: Replay) -> Table | None:
     """The free numbers: the values of this run, and what the search knows of them; None if there are none."""
     if not replay.model.free:
         return None
-    known = {row.address: row for row in tuned_in(replay.folder)} if replay.folder else {}
+    known = {row.address: row for row in tuned_in(replay.folder, replay.manifest)} if replay.folder else {}
     columns = ("parameter", "value", "unit", "lower", "upper", "start", "best", "mean", "std")
     rows = []
     for free in replay.model.free:
         row = known.get(free.address)
         found = (row.start, row.best, row.mean, row.std) if row else ()
-        numbers = (shown(n) for n in (free.low, free.high, *found))
-        rows.append((free.address, shown(free.start), shown_unit(free.unit), *numbers))
+        of = free.unit.of
+        numbers = (shown(n) for n in (of(free.low), of(free.high), *found))
+        rows.append((free.address, shown(of(free.start)), shown_unit(free.unit.text), *numbers))
     width = len(columns) if known else 5
     filled = tuple((*row, *["–"] * width)[:width] for row in rows)
     return Table(columns[:width], filled, frozenset(range(1, width)) - {2})

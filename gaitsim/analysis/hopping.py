@@ -17,6 +17,7 @@ from gaitsim.analysis.return_map import FixedPoint, fixed_point
 from gaitsim.analysis.style import GREY, PALETTE, labelled, legend, panels, whole_numbers
 from gaitsim.model import Free, Model, Part
 from gaitsim.simulation.run import Simulator
+from gaitsim.units import parse_unit
 
 _STARTS = 25
 _HIGHEST = 2.2  # times the highest apex above touchdown
@@ -147,7 +148,8 @@ def _with_free_start(model: Model, coordinate: str) -> Model:
     """The model with one more free number: where a coordinate starts."""
     place = model.initial[coordinate]
     number = replace(model.numbers[place], free=len(model.free), expression=None, fraction_of=None)
-    free = Free(f"initial.{coordinate}", "m", -np.inf, np.inf, model.values()[place], 1.0, "", (number.address,))
+    name, start = f"initial.{coordinate}", model.values()[place]
+    free = Free(name, parse_unit("m"), -np.inf, np.inf, start, 1.0, "", (number.address,))
     numbers = (*model.numbers[:place], number, *model.numbers[place + 1 :])
     return replace(model, numbers=numbers, free=(*model.free, free))
 

@@ -55,7 +55,7 @@ class Result:
 
     @property
     def metrics(self) -> dict[str, float]:
-        """The candidate's metrics as they were recorded, in SI (units: `model.metrics`); nan for none."""
+        """The candidate's metrics as they were recorded, in the units of `model.metrics`; nan for none."""
         recorded = self.source.recorded.get("metrics", {})
         return {name: math.nan if value is None else float(value) for name, value in recorded.items()}
 
@@ -66,10 +66,13 @@ class Result:
         return math.nan if score is None else float(score)
 
     def parameters(self) -> pandas.DataFrame:
-        """The tuned numbers by address: value of the candidate, unit, and bounds of the search, in SI."""
+        """The tuned numbers by address: value of the candidate, its unit, and the bounds of the search in that unit."""
         import pandas
 
-        rows = {f.address: {"value": f.start, "unit": f.unit, "low": f.low, "high": f.high} for f in self.model.free}
+        rows = {}
+        for free in self.model.free:
+            value, low, high = (free.unit.of(number) for number in (free.start, free.low, free.high))
+            rows[free.address] = {"value": value, "unit": free.unit.text, "low": low, "high": high}
         frame = pandas.DataFrame.from_dict(rows, orient="index", columns=["value", "unit", "low", "high"])
         return frame.rename_axis("address")
 
@@ -123,7 +126,7 @@ def dataset(replay: Replay) -> xarray.Dataset:
         "status": replay.outcome.status,
         "reason": replay.outcome.reason,
         "notices": "\n".join(replay.notices),
-        "parameters": ", ".join(f"{free.address} = {free.start!r} {free.unit}" for free in replay.model.free),
+        "parameters": ", ".join(f"{free.address} = {free.unit.exactly(free.start)}" for free in replay.model.free),
     }
     return labelled(trajectory, signals, about)
 

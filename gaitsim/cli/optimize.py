@@ -138,10 +138,10 @@ def _report(tuning: Tuning, progress: Progress, wall: float, json: bool) -> None
         )
         return
     rows = [
-        (v.address, console.shown(x), v.unit, f"[{v.low:g}, {v.high:g}]")
+        (v.address, console.shown(v.unit.of(x)), v.unit.text, f"[{v.unit.of(v.low):g}, {v.unit.of(v.high):g}]")
         for v, x in zip(tuning.problem.variables, best.candidate.x, strict=True)
     ]
-    console.give_table(["tuned (in SI)", "best", "unit", "bounds"], rows)
+    console.give_table(["tuned", "best", "unit", "bounds"], rows)
     place = best.candidate
     score = console.shown(best.verdict.score)
     console.give(

@@ -45,6 +45,7 @@ def show_result(folder: Folder, json: Json = False) -> None:
 
     Example: gaitsim results show results/2026-11-22-hopping-3f9c
     """
+    from gaitsim.analysis.convergence import tuned_in
     from gaitsim.results.manifest import read_manifest
 
     manifest = read_manifest(folder)
@@ -54,11 +55,12 @@ def show_result(folder: Folder, json: Json = False) -> None:
     for key in ("name", "kind", "status", "mode", "created", "gaitsim", "best_score", "evaluations", "failed", "stop"):
         if key in manifest:
             console.give(f"{key:<12} {manifest[key]}")
-    path = folder / "parameters.csv"
-    if path.is_file():
-        head, *rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines()]
+    columns = ("low", "high", "start", "best", "mean", "std")
+    tuned = tuned_in(folder, manifest)
+    rows = [(row.address, row.unit, *(console.shown(getattr(row, name)) for name in columns)) for row in tuned]
+    if rows:
         console.give("")
-        console.give_table(head, rows)
+        console.give_table(["address", "unit", *columns], rows)
 
 
 @app.command("verify")

@@ -65,10 +65,11 @@ def _parameters(rows: list[dict[str, Any]]) -> None:
     table = []
     for row in rows:
         low, high = row.get("tune", (None, None))
-        bounds = "" if low is None else f"[{low:g}, {high:g}]"
+        other = f" {row['tune_unit']}" if row.get("tune_unit", row["unit"]) != row["unit"] else ""
+        bounds = "" if low is None else f"[{low:g}, {high:g}]{other}"
         origin = row.get("expression") or row.get("source", "")
         table.append((row["address"], console.shown(row["value"]), row["unit"], bounds, origin))
-    console.give_table(["parameter", "value", "unit (value in SI)", "tune", "from"], table)
+    console.give_table(["parameter", "value", "unit", "tune", "from"], table)
 
 
 def _connections(rows: list[dict[str, Any]]) -> None:

@@ -25,9 +25,10 @@ def source_of_spec(spec: Path, settings: list[str] | None, folders: list[Path] |
     owner = next((path for path in (spec, *parents(spec)) if tuned_path(path).is_file()), None) if tuned else None
     if owner is None or not (owner == spec or _tunes_what(source, owner, folders)):
         return source
-    result, values = read_tuned(tuned_path(owner))
-    notice = f"tuned values from {tuned_path(owner)} ({result}); --start ignores them"
-    return replace(source, starts=values, notices=(notice,))
+    path = tuned_path(owner)
+    tuned_there = read_tuned(path, source.model().free)
+    notice = f"tuned values from {path} ({tuned_there.result}); --start ignores them"
+    return replace(source, starts=tuned_there.values, origin=str(path), notices=(notice,))
 
 
 def _tunes_what(source: Source, parent: Path, folders: list[Path] | None) -> bool:
@@ -53,7 +54,7 @@ def started_from(source: Source, spec: Path, origin: str | None, trusted: bool) 
         path = tuned_path(spec)
         if not path.is_file():
             raise Usage(f"--from tuned: there is no {path}; make it with optimize --adopt.")
-        where, values = str(path), read_tuned(path)[1]
+        where, values = str(path), read_tuned(path, free).values
     else:
         where = origin
         if not is_result(Path(where)):
@@ -66,7 +67,7 @@ def started_from(source: Source, spec: Path, origin: str | None, trusted: bool) 
         raise Usage(f"--from {origin}: none of its values ({known}) is tuned here.")
     rest = [a for a in addresses if a not in values]
     notice = f"start from {where}: {', '.join(matched)}" + (f"; not found there: {', '.join(rest)}" if rest else "")
-    return replace(source, starts={a: values[a] for a in matched}), [notice]
+    return replace(source, starts={a: values[a] for a in matched}, origin=where), [notice]
 
 
 def open_source(

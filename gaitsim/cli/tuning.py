@@ -21,7 +21,7 @@ from gaitsim.optimization.problem import Problem
 from gaitsim.optimization.search import Budget, Progress, Search
 from gaitsim.results.bundle import Bundle
 from gaitsim.results.lock import Lock
-from gaitsim.results.manifest import write_manifest
+from gaitsim.results.manifest import FORMAT, write_manifest
 from gaitsim.results.store import CannotSave, finish
 from gaitsim.results.tuned import problem_of, tuned_path, write_tuned
 from gaitsim.simulation.run import Mode
@@ -120,6 +120,7 @@ class Tuning:
         score = progress.best.verdict.score if progress.best else None
         self.manifest = self.manifest | {
             "status": "complete",
+            "format": FORMAT,
             "stop": progress.stop,
             "best_score": score,
             "evaluations": progress.evaluations,

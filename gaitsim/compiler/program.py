@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from gaitsim.compiler.graph import Call, schedule
 from gaitsim.errors import Faults, SimulationFailed
 from gaitsim.model import Connection, Model, Part, recorded_signals
+from gaitsim.units import parse_unit
 
 Floats = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -176,7 +177,7 @@ class Program:
                 if name in part.constants:
                     table[place] = values[part.constants[name]]
                 elif not self.senders[place] and declared.default is not None:
-                    table[place] = declared.default * _factor(declared.unit)
+                    table[place] = parse_unit(declared.unit).to_si(declared.default)
         return table
 
     def delay_steps(self, values: Sequence[float]) -> Floats:
@@ -219,12 +220,6 @@ class Program:
             read += [number.fraction_of] if number.fraction_of is not None else []
             found.append(number.free is not None or any(found[index] for index in read))
         return tuple(found)
-
-
-def _factor(unit: str) -> float:
-    from gaitsim.units import parse_unit
-
-    return parse_unit(unit).factor
 
 
 def measures(model: Model) -> list[tuple[int, Part]]:

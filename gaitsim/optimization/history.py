@@ -70,7 +70,7 @@ def parameters_csv(
     best: Sequence[float] | None,
     evaluations: Sequence[Evaluation],
 ) -> str:
-    """Bounds, start, best, and where the better half of the last generation lies."""
+    """Bounds, start, best, and where the better half of the last generation lies: each row in its own unit."""
     rows = [_row(("address", "unit", "low", "high", "start", "spread", "best", "mean", "std"))]
     last = max((e.candidate.generation for e in evaluations), default=0)
     scored = sorted((e for e in evaluations if e.candidate.generation == last and not e.failed), key=lambda e: e.cost)
@@ -79,7 +79,7 @@ def parameters_csv(
         found = math.nan if best is None else best[i]
         mean, std = (float(half[:, i].mean()), float(half[:, i].std())) if half.size else (math.nan, math.nan)
         numbers = (v.low, v.high, v.start, v.spread, found, mean, std)
-        rows.append(_row((v.address, v.unit, *(_text(n) for n in numbers))))
+        rows.append(_row((v.address, v.unit.text, *(_text(v.unit.of(n)) for n in numbers))))
     return "".join(rows)
 
 

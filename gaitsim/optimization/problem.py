@@ -9,15 +9,17 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from gaitsim.units import Unit
+
 Vector = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Variable:
-    """One tuned number, in SI."""
+    """One tuned number, in SI; unit: the one it is written in outside."""
 
     address: str
-    unit: str
+    unit: Unit
     low: float
     high: float
     start: float

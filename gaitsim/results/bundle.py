@@ -89,4 +89,4 @@ def bundle_starts(folder: Path) -> dict[str, float]:
 def bundle_model(folder: Path, name: str) -> Model:
     """The model of a bundle. Errors: OSError, InvalidSpec, InvalidComponent."""
     model = resolve(bundle_document(folder), bundle_library(folder), name)
-    return model.started_at(bundle_starts(folder))
+    return model.started_at(bundle_starts(folder), str(folder / START))

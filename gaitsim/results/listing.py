@@ -9,7 +9,10 @@ from gaitsim.model import Model
 
 
 def model_data(model: Model) -> dict[str, Any]:
-    """Parts, parameters, connections, initial values and metrics, all resolved to SI."""
+    """Parts, parameters, connections, initial values and metrics.
+
+    A number beside a unit is in that unit; all others are in SI.
+    """
     return {
         "name": model.name,
         "simulate": {
@@ -43,15 +46,20 @@ def part_rows(model: Model) -> list[dict[str, Any]]:
 
 
 def parameter_rows(model: Model) -> list[dict[str, Any]]:
-    """Every number: value, unit, bounds of the search, expression, source, place."""
+    """Every number: value, unit, bounds of the search, expression, source, place.
+
+    Values are in `unit`; bounds and spread in `tune_unit`, which differs for a share of a length.
+    """
     values = model.values()
     rows = []
     for number, value in zip(model.numbers, values, strict=True):
-        row: dict[str, Any] = {"address": number.address, "value": value if math.isfinite(value) else None}
-        row["unit"] = number.unit
+        row: dict[str, Any] = {"address": number.address, "value": number.unit.of(value) if math.isfinite(value) else None}
+        row["unit"] = number.unit.text
         if number.free is not None:
             free = model.free[number.free]
-            row |= {"tune": [free.low, free.high], "spread": free.spread, "tuned_as": free.address}
+            of = free.unit.of
+            row |= {"tune": [of(free.low), of(free.high)], "tune_unit": free.unit.text}
+            row |= {"spread": of(free.spread), "tuned_as": free.address}
         if number.expression is not None:
             row["expression"] = number.expression.text
         if number.source:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Mapping as Map
 from pathlib import Path
 from typing import Any
 
@@ -11,6 +12,7 @@ from gaitsim.results.bundle import Bundle, read_bundle
 from gaitsim.results.provenance import provenance
 
 _NAME = "manifest.json"
+FORMAT = 2  # of what a result's files say; in 1, parameters.csv and model.yaml have SI numbers beside other units
 
 
 class BadResult(GaitsimError):
@@ -27,12 +29,18 @@ def new_manifest(kind: str, bundle: Bundle, mode: str, **more: Any) -> dict[str,
     return {
         "kind": kind,
         "status": "running",
+        "format": FORMAT,
         "name": bundle.name,
         "mode": mode,
         **provenance(),
         "digest": bundle.digest,
         **more,
     }
+
+
+def format_of(manifest: Map[str, Any]) -> int:
+    """The format of a result's files; those that do not say it have the first."""
+    return int(manifest.get("format", 1))
 
 
 def write_manifest(folder: Path, manifest: dict[str, Any]) -> None:

@@ -32,6 +32,7 @@ from gaitsim.spec.resolve import resolve
 class Source:
     """A document, the components it may use, and where its tuned numbers start.
 
+    origin: where the starts come from, in words.
     manifest, recorded: of a result, and what it says of the run that this is (as `row_data`).
     """
 
@@ -42,10 +43,11 @@ class Source:
     notices: tuple[str, ...] = ()
     manifest: Map[str, Any] = field(default_factory=dict)
     recorded: Map[str, Any] = field(default_factory=dict)
+    origin: str = ""
 
     def model(self, document: Mapping | None = None) -> Model:
         """The model of the document, or of a variant of it."""
-        return resolve(document or self.document, self.library, self.name).started_at(self.starts)
+        return resolve(document or self.document, self.library, self.name).started_at(self.starts, self.origin)
 
     def bundle(self, models: Iterable[Model]) -> Bundle:
         """The source as files, given the models made of it."""
@@ -81,4 +83,4 @@ def source_of_result(folder: Path, settings: Sequence[str], trusted: bool, candi
         notice = f"run {chosen + 1} of {len(rows)} of {folder}: {row_words(recorded)}" if len(rows) > 1 else ""
     for setting in settings:
         document, recorded = override(document, *split_setting(setting)), {}
-    return Source(document, library, name, starts, (notice,) if notice else (), manifest, recorded)
+    return Source(document, library, name, starts, (notice,) if notice else (), manifest, recorded, str(folder))

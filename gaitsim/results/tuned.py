@@ -2,16 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from collections.abc import Mapping as Map
+from dataclasses import dataclass
 from pathlib import Path
 
 from gaitsim.errors import Fault, InvalidSpec, Mark
-from gaitsim.model import Model
+from gaitsim.model import Free, Model
 from gaitsim.optimization.problem import Problem, Variable
-from gaitsim.spec.document import Mapping, Scalar, dump, read
-from gaitsim.units import UnknownUnit, parse_quantity
+from gaitsim.spec.document import Mapping, Node, Scalar, dump, read
+from gaitsim.spec.quantity import mismatch
+from gaitsim.units import Quantity, Unit, UnknownUnit, parse_quantity
 
-_ABOUT = "Written by gaitsim optimize --adopt; not by hand. Values in SI."
+_ABOUT = "Written by gaitsim optimize --adopt; not by hand."
+_FORMAT = 2  # a file that says none has numbers in SI, whatever unit stands beside them
+_ANEW = "write the file anew with optimize --adopt."
+
+
+@dataclass(frozen=True)
+class TunedValues:
+    """What a file of tuned values holds: the result that they come from, and the values in SI."""
+
+    result: str
+    values: dict[str, float]
 
 
 def tuned_path(spec: Path) -> Path:
@@ -19,21 +32,22 @@ def tuned_path(spec: Path) -> Path:
     return spec.with_name(f"{spec.stem}.tuned.yaml")
 
 
-def write_tuned(spec: Path, result: str, score: float, values: Map[str, float], units: Map[str, str]) -> Path:
-    """Write the tuned values of a spec; the path. Errors: OSError."""
+def write_tuned(spec: Path, result: str, score: float, values: Map[str, float], units: Map[str, Unit]) -> Path:
+    """Write the tuned values of a spec, as text that reads back bit for bit; the path.
+
+    values: in SI. units: in which they are written. Errors: OSError.
+    """
     path = tuned_path(spec)
-    said = {
-        address: value if units[address] == "1" else f"{value!r} {units[address]}" for address, value in values.items()
-    }
-    text = dump({"about": _ABOUT, "result": result, "score": score, "values": said})
+    said = {a: v if units[a].text == "1" else units[a].exactly(v) for a, v in values.items()}
+    text = dump({"about": _ABOUT, "format": _FORMAT, "result": result, "score": score, "values": said})
     draft = path.with_name(f"{path.name}.partial")
     draft.write_text(text, encoding="utf-8")
     draft.replace(path)
     return path
 
 
-def read_tuned(path: Path) -> tuple[str, dict[str, float]]:
-    """The result that tuned values come from, and the values in SI.
+def read_tuned(path: Path, free: Iterable[Free]) -> TunedValues:
+    """The tuned values in a file; those of `free` in units that fit.
 
     Errors: InvalidSpec.
     """
@@ -41,19 +55,32 @@ def read_tuned(path: Path) -> tuple[str, dict[str, float]]:
     values, result = document.entries.get("values"), document.entries.get("result")
     if not isinstance(values, Mapping) or not isinstance(result, Scalar):
         raise InvalidSpec(Fault("this holds no tuned values; write it anew with optimize --adopt.", Mark(str(path))))
-    return str(result.value), {address: _number(node, path) for address, node in values.entries.items()}
+    stated = document.entries.get("format")
+    if stated is not None and not (isinstance(stated, Scalar) and stated.value == _FORMAT):
+        rule = f"gaitsim reads tuned values of format {_FORMAT}, and this is another"
+        raise InvalidSpec(Fault(f"{rule}; {_ANEW}", stated.mark, "format"))
+    units = {each.address: each.unit for each in free}
+    found = {}
+    for address, node in values.entries.items():
+        quantity = _quantity(node, in_si=stated is None)
+        wrong = mismatch(quantity, units[address]) if address in units and stated is not None else ""
+        if wrong:
+            raise InvalidSpec(Fault(wrong, node.mark, address))
+        found[address] = quantity.value
+    return TunedValues(str(result.value), found)
 
 
-def _number(node: object, path: Path) -> float:
+def _quantity(node: Node, in_si: bool) -> Quantity:
+    """A tuned value. in_si: its number is in SI already. Errors: InvalidSpec."""
     if isinstance(node, Scalar) and isinstance(node.value, str | int | float) and not isinstance(node.value, bool):
+        text = str(node.value).partition(" ")[0] if in_si else node.value
         try:
-            quantity = parse_quantity(node.value)
+            quantity = parse_quantity(text)
         except UnknownUnit:
             quantity = None
         if quantity is not None:
-            return quantity.value
-    mark = node.mark if isinstance(node, Scalar) else Mark(str(path))
-    raise InvalidSpec(Fault("this is no tuned value; write the file anew with optimize --adopt.", mark))
+            return quantity
+    raise InvalidSpec(Fault(f"this is no tuned value; {_ANEW}", node.mark))
 
 
 def problem_of(model: Model, spread: float = 1.0) -> Problem:

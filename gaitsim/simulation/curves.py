@@ -114,7 +114,7 @@ def _over_steps(kind: Primitive) -> Iterator[tuple[str, Curve]]:
 def _graph(kind: Primitive, name: str, curve: Curve, settings: Mapping[str, float]) -> Graph:
     assumed = {n: _assumed(p) for n, p in kind.parameters.items() if p.default is None and n not in settings}
     assumed = {n: value for n, value in assumed.items() if n not in curve.at and _reads(kind, curve, n)}
-    numbers = {n: v * parse_unit(kind.parameters[n].unit).factor for n, v in assumed.items()} | dict(settings)
+    numbers = {n: parse_unit(kind.parameters[n].unit).to_si(v) for n, v in assumed.items()} | dict(settings)
     family = curve.each[1] if curve.each else (None,)
     lines: list[Line] = []
     for value in family:
@@ -173,7 +173,7 @@ def _computed(
     """One line: the abscissa and the ordinate, in the declared units."""
     if curve.of not in kind.outputs:
         return _of_function(kind, curve, at, numbers)
-    held = {n: float(v) * parse_unit(_declared(kind, n).unit).factor for n, v in at.items() if not isinstance(v, str)}
+    held = {n: parse_unit(_declared(kind, n).unit).to_si(v) for n, v in at.items() if not isinstance(v, str)}
     trial = Trial(kind).put(dict(numbers) | held)
     trial.put({n: getattr(trial.p, word) for n, word in at.items() if isinstance(word, str)})
     over_time = curve.over == TIME

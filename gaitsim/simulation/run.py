@@ -136,7 +136,7 @@ def _cost(objective: Objective, metrics: Mapping[str, float], values: Sequence[f
     part = objective.part
     wired = {name: metrics[metric] for name, metric in objective.metrics.items()}
     constants = {name: values[index] for name, index in part.constants.items()}
-    defaults = {n: d.default * parse_unit(d.unit).factor for n, d in part.type.inputs.items() if d.default is not None}
+    defaults = {n: parse_unit(d.unit).to_si(d.default) for n, d in part.type.inputs.items() if d.default is not None}
     numbers = {name: np.float64(values[part.numbers[name]]) for name in part.type.parameters}
     inputs = defaults | constants | wired
     if TERMS in part.type.inputs:

@@ -44,7 +44,7 @@ class Trial:
         for declared, view in zip(homes[:2], self.views, strict=False):
             for name, one in declared.items():
                 if getattr(one, "default", None) is not None:
-                    setattr(view, name, one.default * parse_unit(one.unit).factor)
+                    setattr(view, name, parse_unit(one.unit).to_si(one.default))
 
     def put(self, values: Mapping[str, Any]) -> Trial:
         """Set parameters, inputs and states by name, and outputs that MuJoCo would set.

@@ -14,7 +14,7 @@ from gaitsim.spec.inheritance import VALUE_KEYS
 from gaitsim.spec.quantity import example, number
 from gaitsim.spec.quantity import said as said_of
 from gaitsim.spec.spelling import respelled
-from gaitsim.units import parse_unit
+from gaitsim.units import UnknownUnit, parse_quantity, parse_unit
 
 Names = dict[str, tuple[int, str]]
 _SPEC = "spec"  # the source of what a spec says without one
@@ -51,7 +51,7 @@ class NumberTable:
 
         default: the node stands with the declaration, whose source then is the number's.
         """
-        made = self._number(address, logical, node, declared, names, fraction_of)
+        made = self._number(address, logical, node, _closed(declared, node), names, fraction_of)
         if default and made.source in ("", _SPEC):
             made = replace(made, source=declared.source or _SPEC)
         if fraction_of is not None:
@@ -94,28 +94,23 @@ class NumberTable:
     ) -> Number:
         unit = parse_unit(declared.unit)
         if node is None:
-            return self._default(address, declared)
+            return Number(address, unit, _default(declared), source=declared.source)
         text = node.value if isinstance(node, Scalar) else None
         if isinstance(text, str) and text.startswith("="):
             try:
                 expression = parse_expression(text[1:], declared.unit, names)
             except BadExpression as error:
                 self.faults.add(str(error), node.mark, address)
-                return Number(address, declared.unit, mark=node.mark)
+                return Number(address, unit, mark=node.mark)
             self._computed[len(self.numbers)] = (declared, node)
-            return Number(address, declared.unit, expression=expression, mark=node.mark)
+            return Number(address, unit, expression=expression, mark=node.mark)
         if isinstance(node, Mapping):
             return self._mapping(address, logical, node, declared, names, fraction_of)
         value = number(node, declared.unit, self.faults, address)
         if value is None:
-            return Number(address, declared.unit, mark=node.mark)
+            return Number(address, unit, mark=node.mark)
         self._within(value, declared, node, address)
-        return Number(address, unit.text, value, fraction_of=fraction_of, source=_SPEC, mark=node.mark)
-
-    def _default(self, address: str, declared: Parameter) -> Number:
-        factor = parse_unit(declared.unit).factor
-        value = declared.default * factor if declared.default is not None else float("nan")
-        return Number(address, declared.unit, value, source=declared.source)
+        return Number(address, unit, value, fraction_of=fraction_of, source=_SPEC, mark=node.mark)
 
     def _mapping(
         self,
@@ -142,11 +137,11 @@ class NumberTable:
             if value is not None:
                 self._within(value, declared, value_node, address)
         elif declared.default is not None:
-            value = declared.default * parse_unit(declared.unit).factor
+            value = _default(declared)
         if "tune" not in node.entries:
             rule = f"has no value; write value: {example(declared.unit)}, or tune: with a lower and a higher one."
             self.faults.add(rule, node.mark, address)
-            return Number(address, declared.unit, mark=node.mark)
+            return Number(address, parse_unit(declared.unit), mark=node.mark)
         return self._tuned(address, (logical, id(shared)), node, declared, value, origin, fraction_of)
 
     def _tuned(
@@ -159,15 +154,15 @@ class NumberTable:
         source: str,
         fraction_of: int | None,
     ) -> Number:
-        bounds = self._bounds(node.entries["tune"], declared, address)
+        unit, bounds = parse_unit(declared.unit), self._bounds(node.entries["tune"], declared, address)
         if bounds is None:
-            return Number(address, declared.unit, mark=node.mark)
+            return Number(address, unit, mark=node.mark)
         low, high = bounds
         start = (low + high) / 2 if value is None else value
         if not low <= start <= high:
             written = node.entries.get("value")
-            shown = said_of(written) if written else f"by default {start / parse_unit(declared.unit).factor:g}"
-            rule = f"the start, {shown}, is outside {_range(low, high, declared.unit)}"
+            shown = said_of(written) if written else f"by default {unit.of(start):g}"
+            rule = f"the start, {shown}, is outside {unit.span(low, high)}"
             self.faults.add(f"{rule}; move it, or widen tune.", (written or node).mark, address)
         spread_node = node.entries.get("spread")
         spread = (high - low) / 4
@@ -180,9 +175,9 @@ class NumberTable:
         known = self._free.get(key)
         drives = (*known.drives, address) if known else (address,)
         name = key[0] if known else address
-        self._free[key] = Free(name, declared.unit, low, high, start, spread, source, drives, node.mark)
+        self._free[key] = Free(name, unit, low, high, start, spread, source, drives, node.mark)
         which = list(self._free).index(key)
-        return Number(address, declared.unit, start, which, fraction_of=fraction_of, source=source, mark=node.mark)
+        return Number(address, unit, start, which, fraction_of=fraction_of, source=source, mark=node.mark)
 
     def _bounds(self, node: Node, declared: Parameter, address: str) -> tuple[float, float] | None:
         if not isinstance(node, Sequence) or len(node.items) != 2:
@@ -206,19 +201,38 @@ class NumberTable:
             return
         unit = parse_unit(declared.unit)
         low, high = declared.bounds
-        given = value / unit.factor
+        given = unit.of(value)
         if not low - 1e-12 * abs(low) <= given <= high + 1e-12 * abs(high):
-            shown = f"{given:g}{_suffix(declared.unit)}"
+            shown = unit.shown(value)
             words = said_of(node) if isinstance(node, Scalar) else f'"{shown}"'
             if words != f'"{shown}"':
                 words += f" is {shown}, which"
-            rule = f"{words} is outside {_range(low * unit.factor, high * unit.factor, declared.unit)}"
+            rule = f"{words} is outside {unit.span(unit.to_si(low), unit.to_si(high))}"
             self.faults.add(f"{rule}; choose a value between.", node.mark, address)
 
 
-def _range(low: float, high: float, unit: str) -> str:
-    factor = parse_unit(unit).factor
-    return f"{low / factor:g} to {high / factor:g}{_suffix(unit)}"
+def _default(declared: Parameter) -> float:
+    """The declared value in SI; nan for none."""
+    return math.nan if declared.default is None else parse_unit(declared.unit).to_si(declared.default)
+
+
+def _closed(declared: Parameter, node: Node | None) -> Parameter:
+    """A declaration that leaves its unit open, in the unit of what a spec says; any other as it is."""
+    while isinstance(node, Mapping):
+        node = node.entries.get("tune", node.entries.get("value"))
+    first = node.items[0] if isinstance(node, Sequence) and node.items else node
+    if declared.unit != "*" or not isinstance(first, Scalar) or isinstance(first.value, bool) or first.value is None:
+        return declared
+    try:
+        quantity = parse_quantity(first.value)
+    except UnknownUnit:
+        return declared
+    if quantity is None:
+        return declared
+    unit = quantity.unit
+    default = None if declared.default is None else unit.of(declared.default)
+    bounds = None if declared.bounds is None else (unit.of(declared.bounds[0]), unit.of(declared.bounds[1]))
+    return replace(declared, unit=unit.text, default=default, bounds=bounds)
 
 
 def _suffix(unit: str) -> str:

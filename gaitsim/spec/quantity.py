@@ -84,7 +84,7 @@ def number(node: Node, unit: str, faults: Faults, address: str) -> float | None:
 def number_with_unit(node: Node, unit: str, faults: Faults, address: str) -> float | None:
     """As `number`, but in the declared unit instead of SI."""
     value = number(node, unit, faults, address)
-    return None if value is None else value / parse_unit(unit).factor
+    return None if value is None else parse_unit(unit).of(value)
 
 
 def mismatch(quantity: Quantity, declared: Unit) -> str:

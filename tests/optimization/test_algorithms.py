@@ -14,10 +14,11 @@ import pytest
 
 from gaitsim.optimization.algorithms import ALGORITHMS, CmaEs
 from gaitsim.optimization.problem import Problem, Variable, Vector
+from gaitsim.units import parse_unit
 
 
 def problem(count: int, spread: float = 0.2) -> Problem:
-    return Problem(tuple(Variable(f"x{i}", "1", 0.0, 1.0, 0.4, spread) for i in range(count)))
+    return Problem(tuple(Variable(f"x{i}", parse_unit("1"), 0.0, 1.0, 0.4, spread) for i in range(count)))
 
 
 def sphere(values: list[float]) -> float:

@@ -7,9 +7,11 @@ import pytest
 
 from gaitsim.optimization.draws import Draws
 from gaitsim.optimization.problem import Problem, Variable
+from gaitsim.units import parse_unit
 
 STARTS = {"gain": (0, 5, 1.2), "offset": (-1, 0, -0.5), "edge": (0, 2, 2.0), "none": (-1, 1, 0.0)}
-PROBLEM = Problem(tuple(Variable(name, "1", low, high, at, 1.0) for name, (low, high, at) in STARTS.items()))
+PLAIN = parse_unit("1")
+PROBLEM = Problem(tuple(Variable(name, PLAIN, low, high, at, 1.0) for name, (low, high, at) in STARTS.items()))
 
 
 def test_draws_are_these_numbers_on_every_machine() -> None:

@@ -19,8 +19,9 @@ from gaitsim.optimization.history import GenerationsFile
 from gaitsim.optimization.journal import DamagedJournal, Journal, evaluations_in
 from gaitsim.optimization.problem import Problem, Variable
 from gaitsim.optimization.search import Budget, Search
+from gaitsim.units import parse_unit
 
-PROBLEM = Problem(tuple(Variable(f"x{i}", "1", -2.0, 3.0, 1.0, 0.5) for i in range(3)))
+PROBLEM = Problem(tuple(Variable(f"x{i}", parse_unit("1"), -2.0, 3.0, 1.0, 0.5) for i in range(3)))
 Found = tuple[Evaluation, float, str]
 
 
