@@ -43,6 +43,12 @@ class Request:
     library: list[Path] | None
     trust: bool
 
+    @property
+    def words(self) -> list[str]:
+        """What --resume must be told again: settings and libraries."""
+        settings = [word for text in self.settings or [] for word in ("--set", text)]
+        return [*settings, *(word for folder in self.library or [] for word in ("--library", str(folder)))]
+
 
 def begun(request: Request, root: Path) -> Tuning:
     """A new search in a new result folder."""

@@ -13,6 +13,7 @@ from gaitsim.cli import console
 from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
 
 if TYPE_CHECKING:
+    from gaitsim.cli.adoption import Adoption
     from gaitsim.cli.tuning import Tuning
     from gaitsim.cli.workplace import Workplace
     from gaitsim.optimization.search import Progress
@@ -37,6 +38,7 @@ def optimize(
         str | None, typer.Option("--from", metavar="WHERE", help="Start at tuned, the middle of bounds, or a result.")
     ] = None,
     adopt: Annotated[bool, typer.Option("--adopt", help="Write the best values beside the spec.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="With --adopt: also over values that score better.")] = False,
     trust: Trust = False,
     settings: Set = None,
     library: Libraries = None,
@@ -54,11 +56,14 @@ def optimize(
 
     gaitsim optimize specs/hopping_geyer2003.yaml --resume
     """
+    from gaitsim.cli.adoption import adopt as adopted
     from gaitsim.cli.beginning import Request, begun, resumed
     from gaitsim.cli.workplace import Workplace
-    from gaitsim.errors import Usage
+    from gaitsim.errors import ExitCode, Usage
     from gaitsim.results.manifest import is_result
 
+    if force and not adopt:
+        raise Usage("--force is of --adopt: it replaces better values; add --adopt, or leave it out.")
     if adopt and is_result(spec):
         raise Usage(f"--adopt writes beside a spec, and {spec} is a result; name the spec, with --resume.")
     request = Request(
@@ -85,10 +90,9 @@ def optimize(
     except KeyboardInterrupt:
         return _interrupted(tuning, workplace, json)
     wall = time.perf_counter() - began
-    if adopt:
-        console.say(f"wrote {tuning.adopt(spec, progress)}")
-    _report(tuning, progress, wall, json)
-    return 0
+    adoption = adopted(tuning, spec, progress, force, [*request.words, *workplace.words]) if adopt else None
+    _report(tuning, progress, wall, json, adoption)
+    return 0 if adoption is None or adoption.written else ExitCode.USAGE
 
 
 def _search(tuning: Tuning, workplace: Workplace, may_discard: bool) -> Progress:
@@ -121,9 +125,11 @@ def _again(tuning: Tuning, workplace: Workplace) -> str:
     return shlex.join(["gaitsim", "optimize", str(tuning.folder), "--resume", *workplace.words])
 
 
-def _report(tuning: Tuning, progress: Progress, wall: float, json: bool) -> None:
+def _report(tuning: Tuning, progress: Progress, wall: float, json: bool, adoption: Adoption | None) -> None:
     best = progress.best
     assert best is not None
+    if adoption:
+        console.say(adoption.words)
     if json:
         console.give_json(
             {
@@ -134,6 +140,7 @@ def _report(tuning: Tuning, progress: Progress, wall: float, json: bool) -> None
                 "failed": progress.failed,
                 "wall_seconds": wall,
                 "stop": progress.stop,
+                **({"adopted": adoption.written} if adoption else {}),
             }
         )
         return

@@ -23,7 +23,7 @@ from gaitsim.results.bundle import Bundle
 from gaitsim.results.lock import Lock
 from gaitsim.results.manifest import FORMAT, write_manifest
 from gaitsim.results.store import CannotSave, finish
-from gaitsim.results.tuned import problem_of, tuned_path, write_tuned
+from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.run import Mode
 
 
@@ -99,19 +99,6 @@ class Tuning:
             return False
         shutil.rmtree(self.folder)
         return True
-
-    def adopt(self, spec: Path, progress: Progress) -> Path:
-        """Write the best values beside the spec. Errors: CannotSave."""
-        best = progress.best
-        assert best is not None and best.verdict.score is not None
-        values = dict(zip((f.address for f in self.model.free), best.candidate.x, strict=True))
-        units = {f.address: f.unit for f in self.model.free}
-        try:
-            return write_tuned(spec, str(self.folder), best.verdict.score, values, units)
-        except OSError as error:
-            reason = error.strerror or str(error)
-            rule = f"the tuned values cannot be written ({reason}); they are saved in {self.folder}"
-            raise CannotSave(f"{tuned_path(spec)}: {rule}.") from error
 
     def _finish(self, progress: Progress) -> None:
         best = progress.best.candidate.x if progress.best and not progress.best.failed else None
