@@ -15,9 +15,9 @@ from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode
 from gaitsim.spec.document import Mapping as Document
 from gaitsim.spec.inheritance import override, split_setting
-from gaitsim.spec.quantity import mismatch, needed, unknown_unit
+from gaitsim.spec.quantity import BadQuantity, quantity_of
 from gaitsim.spec.study import Span
-from gaitsim.units import UnknownUnit, parse_quantity, parse_unit
+from gaitsim.units import parse_unit
 
 
 @dataclass(frozen=True)
@@ -63,14 +63,9 @@ def until_of(text: str | None, model: Model) -> Until:
         raise Usage(f"--until {text}: {metric} is no metric of this spec. {did_you_mean(metric, model.metrics)}")
     unit = parse_unit(model.metrics[metric])
     try:
-        quantity = parse_quantity(value)
-    except UnknownUnit as error:
-        raise Usage(f"--until {text}: {unknown_unit(str(error))}") from error
-    if quantity is None:
-        raise Usage(f'--until {text}: "{value}" is no number; {needed(model.metrics[metric])}.')
-    wrong = mismatch(quantity, unit)
-    if wrong:
-        raise Usage(f"--until {text}: {wrong}")
+        quantity = quantity_of(value, unit.text)
+    except BadQuantity as error:
+        raise Usage(f"--until {text}: {error}") from error
     return Until(metric, quantity.value / unit.factor)
 
 

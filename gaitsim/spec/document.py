@@ -234,7 +234,9 @@ class _Reader:
                     continue  # one mistake, said once
             value = self.node(value_event, depth + 1)
             word = key.value if isinstance(key, Scalar) else None
-            if not isinstance(word, str):
+            if comma := self.decimal_comma(event, value, entries):
+                self.fault(comma, event)
+            elif not isinstance(word, str):
                 written = getattr(event, "value", "")
                 move = f'it in quotes: "{written}"' if written else "a word before the colon"
                 self.fault(f"a key must be text; write {move}.", event)
@@ -245,6 +247,16 @@ class _Reader:
             else:
                 entries[word], keys[word] = value, key.mark
         return Mapping(entries, keys, mark)
+
+    def decimal_comma(self, key: yaml.Event, value: Node, before: dict[str, Node]) -> str:
+        """What is wrong if a key is the rest of a number with a comma, as in {mass: 2,5 kg}; empty if it is none."""
+        number, rest, begin = next(reversed(before.values()), None), getattr(key, "value", ""), key.start_mark
+        if begin is None or not isinstance(number, Scalar) or plain(value) is not None or not rest[:1].isdigit():
+            return ""
+        if not isinstance(number.value, int) or self.lines[begin.line][: begin.column][-1:] != ",":
+            return ""
+        rule = f'"{number.value},{rest}" has a comma, which ends a value between braces'
+        return f"{rule}; write {number.value}.{rest}."
 
     def until(self, end: type[yaml.Event]) -> Iterator[yaml.Event]:
         while not isinstance(event := next(self.events), end):

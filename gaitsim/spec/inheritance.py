@@ -6,7 +6,7 @@ import os
 from collections.abc import Callable, Iterator, Set
 from pathlib import Path
 
-from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, Usage
+from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, Usage, did_you_mean
 from gaitsim.spec import document
 from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, plain
 from gaitsim.spec.syntax import DEPTH_LIMIT
@@ -100,10 +100,41 @@ def laid(spec: Mapping, address: str, value: Node, mark: Mark) -> Mapping:
 
 def _laid(spec: Mapping, words: tuple[str, ...], value: Node, mark: Mark) -> Mapping:
     faults = Faults()
+    if len(words) == 2 and words[0] == "parameters":
+        _check_declares(spec, words[1], value, mark, faults)
+        faults.raise_if_any()
     result = _with(spec, words, (), value, mark, faults)
     faults.raise_if_any()
     assert isinstance(result, Mapping)  # a spec stays a mapping
     return result
+
+
+def _check_declares(spec: Mapping, name: str, value: Node, mark: Mark, faults: Faults) -> None:
+    """What stands at `parameters.NAME` declares a parameter; a value alone belongs to another address."""
+    removed = isinstance(value, Scalar) and value.value is None
+    if removed or (isinstance(value, Mapping) and not _is_value(value)):
+        return
+    section = spec.entries.get("parameters")
+    known = section.entries if isinstance(section, Mapping) else {}
+    places = [place for word in _SEARCHED for place in _addresses(spec.entries.get(word), name)]
+    if name in known:
+        rule = f"a parameter of the spec goes by its name alone; write {name} instead of parameters.{name}"
+    elif places:
+        rule = f"the spec itself has no parameter {name}; write {', or '.join(places[:3])}"
+    else:
+        hint = did_you_mean(name, known) if known else "It has none."
+        faults.add(f"the spec itself has no parameter {name}. {hint}", mark, f"parameters.{name}")
+        return
+    faults.add(f"{rule}.", mark, f"parameters.{name}")
+
+
+def _addresses(node: Node | None, name: str) -> Iterator[str]:
+    """Where below a section of parts a key of this name stands."""
+    for key, inner in node.entries.items() if isinstance(node, Mapping) else ():
+        if isinstance(inner, Mapping):
+            if name in inner.entries:
+                yield f"{key}.{name}"
+            yield from (f"{key}.{place}" for place in _addresses(inner, name))
 
 
 def _put(entries: dict[str, Node], keys: dict[str, Mark], key: str, over: Node, mark: Mark) -> None:

@@ -21,6 +21,17 @@ _EXAMPLES = {
     "N m": "10 N m",
     "m/s^2": "9.81 m/s^2",
 }
+# Letters that people write, and what a spec has instead.
+_PLAIN = {
+    "[\N{MINUS SIGN}\N{EN DASH}]": "-",
+    r"(?<=\d)\s*\N{DEGREE SIGN}": " deg",
+    "[\N{MICRO SIGN}\N{GREEK SMALL LETTER MU}]": "u",
+    r"\s*[\N{MIDDLE DOT}\N{DOT OPERATOR}\N{MULTIPLICATION SIGN}\N{BULLET}]\s*": " ",
+    "\N{SUPERSCRIPT TWO}": "^2",
+    "\N{SUPERSCRIPT THREE}": "^3",
+    r"\s+": " ",
+}
+_THOUSANDS = re.compile(r"\b\d{1,3}(,\d{3})+(?!\d)")
 
 
 def example(unit: str) -> str:
@@ -37,6 +48,50 @@ def measured(unit: Unit) -> str:
 def needed(unit: str) -> str:
     """What a declaration in this unit asks for, with an example."""
     return f'this needs {measured(parse_unit(unit))}, such as "{example(unit)}"'
+
+
+class BadQuantity(ValueError):
+    """A text that is no quantity of the unit that is asked for; its words say why, and what to write."""
+
+
+def quantity_of(text: str | float, unit: str) -> Quantity:
+    """The quantity that a text says where `unit` is declared. Errors: BadQuantity."""
+    try:
+        quantity = parse_quantity(text)
+    except UnknownUnit as error:
+        raise BadQuantity(in_plain_letters(text) or unknown_unit(str(error))) from error
+    if quantity is None:
+        raise BadQuantity(in_plain_letters(text) or f'"{text}" is no number; {needed(unit)}.')
+    wrong = mismatch(quantity, parse_unit(unit))
+    if wrong:
+        raise BadQuantity(wrong)
+    return quantity
+
+
+def in_plain_letters(text: str | float) -> str:
+    """What to write for a quantity that only its letters keep from being one, such as 2,5 kg or 170°; else empty."""
+    written = str(text)
+    for letters, plain in _PLAIN.items():
+        written = re.sub(letters, plain, written)
+    whole = _THOUSANDS.sub(lambda number: number[0].replace(",", ""), written)
+    choices = [choice for choice in dict.fromkeys((written.replace(",", "."), whole)) if _is_quantity(choice)]
+    if not choices or choices == [text]:
+        return ""
+    rule = "numbers have a point, no comma" if "," in written else "write units in plain letters"
+    if "\N{MINUS SIGN}" in str(text) or "\N{EN DASH}" in str(text):
+        rule = "a minus is the hyphen of the keyboard"
+    return f'"{text}" is no quantity here: {rule}; write {" or ".join(_quoted(choice) for choice in choices)}.'
+
+
+def _quoted(text: str) -> str:
+    return f'"{text}"'
+
+
+def _is_quantity(text: str) -> bool:
+    try:
+        return parse_quantity(text) is not None
+    except UnknownUnit:
+        return False
 
 
 def unknown_unit(text: str) -> str:
@@ -67,18 +122,10 @@ def number(node: Node, unit: str, faults: Faults, address: str) -> float | None:
         faults.add(f"{said(node)} is no number; {needed(unit)}.", node.mark, address)
         return None
     try:
-        quantity = parse_quantity(node.value)
-    except UnknownUnit as error:
-        faults.add(unknown_unit(str(error)), node.mark, address)
+        return quantity_of(node.value, unit).value
+    except BadQuantity as error:
+        faults.add(str(error), node.mark, address)
         return None
-    if quantity is None:
-        faults.add(f'"{node.value}" is no number; {needed(unit)}.', node.mark, address)
-        return None
-    message = mismatch(quantity, parse_unit(unit))
-    if message:
-        faults.add(message, node.mark, address)
-        return None
-    return quantity.value
 
 
 def number_with_unit(node: Node, unit: str, faults: Faults, address: str) -> float | None:

@@ -10,9 +10,8 @@ from pydantic_core import PydanticCustomError
 
 from gaitsim.errors import Faults, Mark
 from gaitsim.spec.document import Mapping, Node, Sequence, plain
-from gaitsim.spec.quantity import example, mismatch, needed, unknown_unit
+from gaitsim.spec.quantity import BadQuantity, example, needed, quantity_of
 from gaitsim.spec.spelling import respelled
-from gaitsim.units import UnknownUnit, parse_quantity, parse_unit
 
 
 def _quantity(unit: str, above: float | None = None) -> tuple[BeforeValidator, WithJsonSchema]:
@@ -22,16 +21,12 @@ def _quantity(unit: str, above: float | None = None) -> tuple[BeforeValidator, W
         if isinstance(value, bool) or not isinstance(value, str | int | float):
             raise PydanticCustomError("quantity", "{text}", {"text": needed(unit).capitalize() + "."})
         try:
-            quantity = parse_quantity(value)
-        except UnknownUnit as error:
-            raise PydanticCustomError("quantity", "{text}", {"text": unknown_unit(str(error))}) from error
-        if quantity is None:
-            raise PydanticCustomError("quantity", "{text}", {"text": f'"{value}" is no number; {needed(unit)}.'})
-        message = mismatch(quantity, parse_unit(unit))
-        if not message and above is not None and not quantity.value > above:
-            message = f'"{value}" is not above {above:g}; {needed(unit)}.'
-        if message:
-            raise PydanticCustomError("quantity", "{text}", {"text": message})
+            quantity = quantity_of(value, unit)
+        except BadQuantity as error:
+            raise PydanticCustomError("quantity", "{text}", {"text": str(error)}) from error
+        if above is not None and not quantity.value > above:
+            text = f'"{value}" is not above {above:g}; {needed(unit)}.'
+            raise PydanticCustomError("quantity", "{text}", {"text": text})
         return quantity.value
 
     schema = {"type": ["string", "number"], "examples": [example(unit)], "description": f"In {unit}."}

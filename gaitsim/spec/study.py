@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from gaitsim.errors import Faults, Mark, Usage
 from gaitsim.spec.document import Mapping, Node, Sequence, dump, plain
 from gaitsim.spec.inheritance import laid, override, split_setting, without
-from gaitsim.spec.quantity import said, unknown_unit
+from gaitsim.spec.quantity import in_plain_letters, said, unknown_unit
 from gaitsim.units import UnknownUnit, parse_quantity
 
 _RANGE_LIMIT = 100_000
@@ -126,8 +126,12 @@ def _span(low: str, high: str, text: str) -> Span | None:
     try:
         first, last = parse_quantity(low), parse_quantity(high)
     except UnknownUnit as error:
-        raise Usage(f"--vary {text}: {unknown_unit(str(error))}") from error
+        letters = in_plain_letters(low) or in_plain_letters(high)
+        raise Usage(f"--vary {text}: {letters or unknown_unit(str(error))}") from error
     if first is None or last is None:
+        letters = in_plain_letters(high if first else low)
+        if letters:
+            raise Usage(f"--vary {text}: {letters}")
         return None
     if first.unit.text != last.unit.text and first.unit.dimension != last.unit.dimension:
         raise Usage(f"--vary {text}: both ends need the same unit, such as 1 ms:5 ms:3.")
