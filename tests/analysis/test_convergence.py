@@ -70,7 +70,7 @@ def test_the_figures_of_a_search(search: Path) -> None:
     texts = [text.get_text() for text in bounds.figure.axes[0].texts]
     assert "extensor.max_isometric_force" in texts
     assert {"18000 N", "26000 N", "0.08 m", "0.12 m"} <= set(texts)
-    assert len(tuned_in(search)) == 6
+    assert len(tuned_in(search, {})) == 6
 
 
 def test_best_is_what_the_search_said(search: Path) -> None:
@@ -100,6 +100,6 @@ def test_a_table_of_parameters_that_is_torn_or_missing(search: Path, tmp_path: P
     lines = (search / "parameters.csv").read_text().splitlines()
     (tmp_path / "parameters.csv").write_text("\n".join([*lines[:3], lines[3][:20]]))
     known = ["extensor.max_isometric_force", "extensor.optimal_fiber_length"]
-    assert [row.address for row in tuned_in(tmp_path)] == known
+    assert [row.address for row in tuned_in(tmp_path, {"format": 2})] == known
     (tmp_path / "parameters.csv").unlink()
-    assert tuned_in(tmp_path) == []
+    assert tuned_in(tmp_path, {"format": 2}) == []
