@@ -9,13 +9,16 @@ import numpy as np
 
 from gaitsim.analysis.cycles import Floats, arriving, shade_stance, shown_part, stance, thinned
 from gaitsim.analysis.drawing import Drawing
+from gaitsim.analysis.joint_moments import STOPS
 from gaitsim.analysis.muscles import muscles, work_done
+from gaitsim.analysis.path_work import created_power
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import GREY, PALETTE, above, labelled, panels
 from gaitsim.model import Part
 
 _CYCLES = 6  # more cannot be told apart
 _LEAST = 1e-9  # J; less is not worth a colour
+CREATED = "created at paths"
 
 
 @dataclass(frozen=True)
@@ -64,6 +67,7 @@ def balance(replay: Replay) -> Balance | None:
         held, given = _of_part(replay, part)
         stored |= {f"elastic, {name}": energy for name, energy in held.items()}
         exchanged |= given
+    exchanged[CREATED] = _integral(created_power(replay), replay.times)
     return Balance(_worth(stored), _worth(exchanged))
 
 
@@ -79,6 +83,8 @@ def _of_part(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, F
         if "height" not in part.type.outputs:
             return {own: energy}, {}
         lost = work_done(-signal[f"{own}.force"], signal[f"{own}.height"]) + energy - energy[:1]
+        if "slip_velocity" in part.type.outputs:
+            lost = lost + _integral(signal[f"{own}.friction_force"] * signal[f"{own}.slip_velocity"], replay.times)
         return {own: energy}, {f"{own}, damping": lost}
     if part.type.kind == "constraint":
         return {own: signal[f"{own}.energy"]}, {}
@@ -88,11 +94,12 @@ def _of_part(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, F
 
 
 def _of_joint(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, Floats]]:
-    """Stops, damping and drives of a joint with a velocity; what muscles' paths send counts as the muscles'."""
+    """Stops, damping and drives of a joint with one velocity; what muscles' paths send counts as the muscles'."""
     own, outputs = part.address, part.type.outputs
-    if "velocity" not in outputs:
+    rates = [name for name, port in outputs.items() if port.unit in ("m/s", "rad/s")]
+    if len(rates) != 1:
         return {}, {}
-    signal, velocity = replay.trajectory, replay.trajectory[f"{own}.velocity"]
+    signal, velocity = replay.trajectory, replay.trajectory[f"{own}.{rates[0]}"]
     held: dict[str, Floats] = {}
     given: dict[str, Floats] = {}
     drives = [name for name, port in part.type.inputs.items() if port.unit in ("N", "N m")]
@@ -105,9 +112,10 @@ def _of_joint(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, 
     if "damping" in part.numbers:
         damping = replay.model.values()[part.numbers["damping"]]
     lost = _integral(-damping * velocity**2, replay.times)
-    if {"stop", "stop_energy"} <= outputs.keys():
+    stop = next((name for name in STOPS if name in outputs), None)
+    if stop is not None and "stop_energy" in outputs:
         held[f"{own}'s stops"] = energy = signal[f"{own}.stop_energy"]
-        lost = lost + _integral(signal[f"{own}.stop"] * velocity, replay.times) + energy - energy[:1]
+        lost = lost + _integral(signal[f"{own}.{stop}"] * velocity, replay.times) + energy - energy[:1]
     return held, given | {f"{own}, damping": lost}
 
 
@@ -167,10 +175,14 @@ def _exchanged(replay: Replay, whole: Balance) -> Drawing:
     ends = ", ".join(f"{name} {values[-1]:+.4g} J" for name, values in whole.exchanged.items())
     largest = float(np.abs(residual).max())
     share = f", {100 * largest / whole.turned_over:.2g} % of the largest swing" if whole.turned_over > 0 else ""
+    paths = ""
+    if CREATED in whole.exchanged:
+        paths = " Created at paths: joints get more work from them than muscle-tendon units give, or less, as the "
+        paths += "pennation factor scales a path's length and not its moment."
     caption = (
         f"What came into the model since the start, losses negative, over {said}; at the end: {ends or 'nothing'}; "
         f"the total changed by {whole.change[-1]:+.4g} J. Residual, which is what these do not explain (errors of the "
         f"time step, and parts that take energy without saying so): {residual[-1]:+.3g} J at the end, at most "
-        f"{largest:.3g} J{share}."
+        f"{largest:.3g} J{share}.{paths}"
     )
     return Drawing("energy_balance", "Who gave and who took energy", caption, figure)

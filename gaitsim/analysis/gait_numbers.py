@@ -16,11 +16,13 @@ from gaitsim.analysis.gait_muscles import metabolic_power
 from gaitsim.analysis.gait_norms import followed, norm_numbers
 from gaitsim.analysis.joint_moments import joint_work
 from gaitsim.analysis.legs import SIDES, Leg, mass, on_side, two_legs
+from gaitsim.analysis.path_work import created_power
 from gaitsim.analysis.pressure import pressure
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import shown_unit
 
 Legs = Sequence[Leg]
+_LEAST_WORK = 1e-9  # J/kg; less is rounding
 # name, unit, and by side a value for each step or stride
 Quantity = tuple[str, str, dict[str, Floats]]
 
@@ -101,6 +103,9 @@ def _of_energy(replay: Replay, legs: Legs) -> Iterator[Quantity]:
         if known:
             yield f"{joint}_positive_work", "J/kg", {side: work[0] for side, work in known.items()}
             yield f"{joint}_negative_work", "J/kg", {side: work[1] for side, work in known.items()}
+    created = {leg.side: leg.integral(created_power(replay, leg.side)) / mass(replay, leg) for leg in legs}
+    if any(np.abs(work).max(initial=0) > _LEAST_WORK for work in created.values()):
+        yield "work_created_at_paths", "J/kg", created
     powers = {leg.side: leg.share(power) for leg in legs if (power := metabolic_power(replay, leg)) is not None}
     if powers:
         yield "metabolic_power", "W/kg", powers

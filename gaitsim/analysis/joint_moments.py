@@ -9,7 +9,7 @@ from gaitsim.analysis.legs import Leg, side_of
 from gaitsim.analysis.replay import Replay
 from gaitsim.model import Model, Part
 
-_STOPS = ("stop_moment", "stop")
+STOPS = ("stop_moment", "stop")
 
 
 def joint_moment(replay: Replay, joint: str) -> Floats | None:
@@ -21,7 +21,7 @@ def joint_moment(replay: Replay, joint: str) -> Floats | None:
     if part is None or hidden_paths(replay.model, side_of(joint)):
         return None
     total = sum((arriving(replay, f"{joint}.{name}") for name in _moments(part)), np.zeros(len(replay.times)))
-    for name in _STOPS:
+    for name in STOPS:
         if name in part.type.outputs:
             total = total + replay.trajectory[f"{joint}.{name}"]
     if "damping" in part.numbers:
@@ -40,8 +40,7 @@ def joint_work(replay: Replay, leg: Leg, joint: str) -> tuple[Floats, Floats] | 
     power = joint_power(replay, joint)
     if power is None:
         return None
-    seconds = np.array([end - begin for begin, end in leg.strides])
-    return seconds * leg.share(np.maximum(power, 0)), seconds * leg.share(np.minimum(power, 0))
+    return leg.integral(np.maximum(power, 0)), leg.integral(np.minimum(power, 0))
 
 
 def hidden_paths(model: Model, side: str) -> list[str]:

@@ -66,6 +66,11 @@ class Leg:
         """Mean of a signal over each stride, such as the share of stance."""
         return np.array([np.mean(values[kept]) for kept in self._inside], dtype=np.float64)
 
+    def integral(self, values: Floats) -> Floats:
+        """Of a signal over the time of each stride, such as the work of a power."""
+        seconds = np.array([end - begin for begin, end in self.strides])
+        return np.asarray(seconds * self.share(values), dtype=np.float64)
+
     def highest(self, values: Floats) -> Floats:
         """Highest value of a signal in each stride, of all instants."""
         return np.array([np.max(values[kept]) for kept in self._inside], dtype=np.float64)

@@ -5,7 +5,8 @@ class ConstantArm(Component):
     """A path around one joint at a constant distance, such as the knee extensor of Geyer et al. (2003).
 
     Opening the joint shortens the path where d > 0: l = l_ref - rho d (phi - phi_ref). The pennation
-    factor rho scales the length only, not the moment d F (Geyer & Herr 2010).
+    factor rho scales the length only, not the moment d F (Geyer & Herr 2010): with rho < 1 the joint gets
+    1 / rho of the work that the muscle gives. With rho = 1 both agree.
     """
 
     moment_arm = Parameter(

@@ -31,6 +31,21 @@ parts:
   energy: {use: sensor/mechanical_energy}
 simulate: {duration: 2 s, step: 0.02 ms}
 """
+PENNATE = """
+gaitsim: 1
+parts:
+  rod: {use: segment/rod, mass: 4 kg, length: 40 cm}
+  pivot: {use: joint/geyer2010, parent: world, child: rod.proximal, grows: backwards, neutral: 90 deg, lower: 70 deg}
+  muscle:
+    use: muscle/geyer2010
+    max_isometric_force: 1500 N
+    optimal_fiber_length: 8 cm
+    tendon_slack_length: 20 cm
+    excitation: 0.2
+    path: {use: path/constant_arm, joint: pivot, moment_arm: -4 cm, reference_angle: 90 deg, pennation: 0.5}
+  energy: {use: sensor/mechanical_energy}
+simulate: {duration: 1 s, step: 0.02 ms}
+"""
 
 
 def test_a_bounce_without_friction_keeps_its_energy() -> None:
@@ -60,6 +75,42 @@ def test_a_drive_and_a_damper_explain_a_swing() -> None:
     assert found.exchanged["pivot, torque"][-1] > 1
     assert found.exchanged["pivot, damping"][-1] < -1
     assert np.abs(found.residual).max() < 1e-3 * found.turned_over
+
+
+def test_what_a_path_makes_of_nothing_has_a_line_of_its_own() -> None:
+    """Half of the arm pulls on the muscle, all of it on the joint: joints get twice what the muscle gives."""
+    replay = of_text(PENNATE)
+    found = balance(replay)
+    assert found is not None
+    created, signals = found.exchanged["created at paths"], replay.trajectory
+    angle, moment = signals["pivot.angle"], signals["muscle.path.moment"]
+    at_joint = np.concatenate([[0], np.cumsum(0.5 * (moment[1:] + moment[:-1]) * np.diff(angle))])
+    assert np.ptp(created) > 1
+    assert created == pytest.approx(0.5 * at_joint, abs=1e-3 * np.ptp(created))
+    assert np.abs(found.residual).max() < 2e-3 * found.turned_over
+    assert "Created at paths" in energy_figures(replay)[1].caption
+
+
+def test_a_path_that_agrees_with_itself_has_no_such_line() -> None:
+    replay = of_text(PENNATE, [("muscle.path.pennation", "1")])
+    found = balance(replay)
+    assert found is not None
+    assert set(found.exchanged) == {"muscle, contractile", "pivot, damping"}
+    assert np.abs(found.residual).max() < 2e-3 * found.turned_over
+    assert "Created at paths" not in energy_figures(replay)[1].caption
+
+
+@pytest.mark.parametrize("contact", ["hunt_crossley", "geyer2010"])
+def test_friction_takes_what_a_sliding_foot_loses(contact: str) -> None:
+    """A point that lands with 1 m/s forwards and is braked by the ground."""
+    text = BALL.replace("joint/vertical", "joint/planar").replace("guide.position: 0.5 m", "guide.z: 3.5 cm")
+    ground = f"ground: {{use: contact/{contact}, frame: ball.center}}"
+    text = "\n".join(f"  {ground}" if "ground:" in line else line for line in text.splitlines())
+    text = text.replace("guide.z: 3.5 cm", "guide.z: 3.5 cm, guide.forward_velocity: 1 m/s").replace("2 s", "0.3 s")
+    found = balance(of_text(text))
+    assert found is not None
+    assert found.exchanged["ground, damping"][-1] < -0.9
+    assert np.abs(found.residual).max() < 5e-3 * found.turned_over
 
 
 @pytest.mark.parametrize(("spec", "duration"), [("hopping_geyer2003", "2 s"), ("hopping_leg_mass", "0.5 s")])

@@ -76,6 +76,15 @@ def test_work_and_metabolic_power() -> None:
     assert joint_work(replay, legs[1], "root") is None
 
 
+def test_work_that_paths_make() -> None:
+    """A moment of 80 N m at 2 rad/s is 160 W; the unit pulls with 1.5 kN while it shortens by 5 cm/s, 75 W."""
+    signals = {"leg_r.soleus.path.moment": 80.0, "leg_r.ankle.angular_velocity": 2.0}
+    signals |= {"leg_r.soleus.force": 1500.0, "leg_r.soleus.path.velocity": -0.05}
+    found = gait_numbers(walk(signals))["work_created_at_paths"]
+    assert (found["unit"], found["right"], found["left"]) == ("J/kg", pytest.approx(85 * STRIDE / 80, rel=0.01), 0)
+    assert "work_created_at_paths" not in gait_numbers(walk({}))
+
+
 def test_what_does_not_walk_has_no_numbers() -> None:
     short = cut(walk({}), 480)
     assert (gait_numbers(short), gait_table(short), norms_table(short)) == ({}, None, None)

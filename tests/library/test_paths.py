@@ -76,6 +76,36 @@ def test_the_moment_is_that_of_the_arm_without_the_pennation_factor(muscle: str,
         assert now.velocity == pytest.approx(2 * slope, abs=1e-9)
 
 
+POLYNOMIAL = {"moment_arm": 0.04, "arm_slope": -0.013, "arm_curvature": 0.006, "arm_cubic": -0.0021}
+
+
+@modes
+@pytest.mark.parametrize("kind", ["path/polynomial_arm", COSINE, CONSTANT])
+def test_force_times_shortening_is_moment_times_turning(kind: str, mode: str) -> None:
+    """Work over an arc and power at its ends; the arms of the paper agree without their pennation factor."""
+    values = {"moment_arm": 0.04, "reference_length": REST, "reference_angle": 1.1}
+    values |= {"path/polynomial_arm": POLYNOMIAL, COSINE: {"max_angle": 1.4}, CONSTANT: {}}[kind]
+
+    def at(angle: float) -> Any:
+        return computed(kind, mode, **values, angle=angle, angular_velocity=2.5, tension=700.0)
+
+    begin, end = 0.3, 1.9
+    nodes, weights = np.polynomial.legendre.leggauss(20)
+    moments = [at(0.5 * (begin + end) + 0.5 * (end - begin) * node).moment for node in nodes]
+    turning = 0.5 * (end - begin) * float(weights @ moments)
+    assert 700 * (at(begin).length - at(end).length) == pytest.approx(turning, abs=1e-12)
+    assert 700 * at(0.7).velocity + 2.5 * at(0.7).moment == pytest.approx(0, abs=1e-12)
+
+
+@modes
+def test_a_polynomial_arm_by_its_equation(mode: str) -> None:
+    values = {**POLYNOMIAL, "reference_length": REST, "reference_angle": 1.1}
+    now = computed("path/polynomial_arm", mode, **values, angle=1.6, tension=700.0)
+    assert now.moment == pytest.approx(700 * (0.04 - 0.013 * 0.5 + 0.006 * 0.25 - 0.0021 * 0.125), abs=1e-12)
+    change = 0.04 * 0.5 - 0.013 * 0.125 + 0.002 * 0.125 - 0.0021 * 0.0625 / 4
+    assert now.length == pytest.approx(REST - change, abs=1e-12)
+
+
 @pytest.mark.parametrize(
     ("muscle", "joint", "longer"),
     [
