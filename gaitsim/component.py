@@ -38,6 +38,9 @@ __all__ = [
 ]
 
 
+End = float | str  # of a range: a number in the unit, or an expression of parameters in SI
+
+
 @dataclass(frozen=True)
 class Parameter:
     """A number that a spec may set and tune. Bounds are in `unit`; without default it is required."""
@@ -95,30 +98,48 @@ class Frame:
 
 @dataclass(frozen=True)
 class Input:
-    """A signal that comes in. `sums`: any number of senders (`to:`); else one (`from:`)."""
+    """A signal that comes in. `sums`: any number of senders (`to:`); else one (`from:`).
+
+    usual, possible: as of an output.
+    """
 
     unit: str
     doc: str
     default: float | None = None
     sums: bool = False
+    usual: tuple[End, End] | None = None
+    possible: tuple[End, End] | None = None
 
 
 @dataclass(frozen=True)
 class Output:
-    """A signal that goes out."""
+    """A signal that goes out.
+
+    usual: where it is when a run starts, as a rule; a start elsewhere is warned of.
+    possible: where it can be at all; a start elsewhere is refused.
+    Both are a low and a high end: numbers in `unit`, or expressions of parameters in SI, such as
+    "upper + 0.1" of an angle.
+    """
 
     unit: str
     doc: str
+    usual: tuple[End, End] | None = None
+    possible: tuple[End, End] | None = None
 
 
 @dataclass(frozen=True)
 class State:
-    """What is remembered between steps: a number, `size` numbers, or one of named `levels`."""
+    """What is remembered between steps: a number, `size` numbers, or one of named `levels`.
+
+    usual, possible: of one number, as of an output.
+    """
 
     unit: str = "1"
     doc: str = ""
     size: int | None = None
     levels: tuple[str, ...] = ()
+    usual: tuple[End, End] | None = None
+    possible: tuple[End, End] | None = None
 
 
 @dataclass(frozen=True)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from gaitsim.cli.source import source_of_spec, started_from
+from gaitsim.cli.starts import Starts
 from gaitsim.cli.tuning import Tuning
 from gaitsim.errors import Fault, InvalidSpec, Mark, Usage, did_you_mean
 from gaitsim.optimization.algorithms import ALGORITHMS
@@ -71,11 +72,13 @@ def begun(request: Request, root: Path) -> Tuning:
     search["population"] = algorithm.population
     mode: Mode = "normal" if request.mode == "normal" else "rapid"
     each = episode_models(source.document, source.library, source.name)
-    simulator = Simulator(model, mode)
+    simulator, starts = Simulator(model, mode), Starts(source)
+    starts.look_at(simulator)
     bundle = source.bundle([model, *each])
     manifest = new_manifest("optimize", bundle, mode, spec=str(request.spec), search=search, notices=notices)
     folder = create_result(root, bundle, model, simulator.xml, manifest, {"evaluations.jsonl": ""})
-    return Tuning(folder, manifest, bundle, bundle_model(folder, bundle.name), [*model.notices, *notices])
+    told = [*model.notices, *starts.warnings, *notices]
+    return Tuning(folder, manifest, bundle, bundle_model(folder, bundle.name), told)
 
 
 def resumed(request: Request, root: Path) -> Tuning:

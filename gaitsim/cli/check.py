@@ -42,6 +42,7 @@ def check(
     """
     from gaitsim.analysis.moment_arms import draw, warnings
     from gaitsim.cli.convergence import convergence_of, data, give
+    from gaitsim.cli.starts import Starts
     from gaitsim.results.episodes import episode_models
     from gaitsim.simulation.moment_arms import moment_arms
     from gaitsim.simulation.run import Simulator
@@ -51,13 +52,14 @@ def check(
     source = open_source(spec, settings, library, tuned=convergence, trusted=trust)
     rows = variants(source.document, [])
     models = [source.model(row.document) for row in rows]
+    starts = Starts(source)
     for each in (*models, *episode_models(source.document, source.library, source.name)):
-        Simulator(each)
+        starts.look_at(Simulator(each))
     model = models[0]
     for notice in (*source.notices, *model.notices):
         console.say(notice)
     arms = moment_arms(model)
-    doubts = warnings(arms)
+    doubts = [*starts.unusual, *warnings(arms)]
     for doubt in doubts:
         console.say(f"warning: {doubt}")
     picture = folder / f"{source.name}.moment_arms.png" if plot and arms else None

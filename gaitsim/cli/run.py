@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -14,6 +14,7 @@ from gaitsim.cli.source import open_source
 from gaitsim.errors import SimulationFailed
 
 if TYPE_CHECKING:
+    from gaitsim.cli.starts import Starts
     from gaitsim.model import Model
     from gaitsim.optimization.draws import Draws
     from gaitsim.results.source import Source
@@ -65,6 +66,7 @@ def run(
     gaitsim run results/2026-11-22-hopping-3f9c --candidate 2
     """
     from gaitsim.cli.draws import drawn_models, draws_asked
+    from gaitsim.cli.starts import Starts
     from gaitsim.errors import Usage
     from gaitsim.simulation.run import Simulator
     from gaitsim.spec.study import variants
@@ -76,16 +78,18 @@ def run(
         raise Usage("--out writes one trajectory; drop --vary or study:, or --set one value.")
     _check_places(out, no_save)
     models = [source.model(row.document) for row in rows]
-    for notice in dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]):
-        console.say(notice)
+    _say(dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]))
+    starts = Starts(source)
     if drawn:
-        outcomes = _all(drawn_models(models, drawn, spec), mode)
+        outcomes = _all(drawn_models(models, drawn, spec), mode, starts)
         rows = rows * drawn.count
     elif len(rows) == 1 and not rows[0].settings:
         simulator = Simulator(models[0], mode.value)
+        starts.look_at(simulator)
+        _say(starts.warnings)
         outcomes = [simulator.run(recorded=out is not None)]
     else:
-        outcomes = _all(models, mode)
+        outcomes = _all(models, mode, starts)
     if out is not None and outcomes[0].trajectory is not None:
         from gaitsim.results.store import save_trajectory
 
@@ -112,10 +116,20 @@ def _check_places(out: Path | None, no_save: bool) -> None:
         raise CannotSave(f"{RESULTS}: {rule}; rename the file, or use --no-save.")
 
 
-def _all(models: Sequence[Model], mode: ModeName) -> list[Outcome]:
+def _all(models: Sequence[Model], mode: ModeName, starts: Starts) -> list[Outcome]:
     from gaitsim.simulation.batch import run_all
 
-    return list(run_all(models, mode.value))
+    outcomes: list[Outcome] = []
+    for outcome in run_all(models, mode.value, starts.look_at):
+        if not outcomes:
+            _say(starts.warnings)
+        outcomes.append(outcome)
+    return outcomes
+
+
+def _say(lines: Iterable[str]) -> None:
+    for line in lines:
+        console.say(line)
 
 
 def _saved(

@@ -13,6 +13,7 @@ from gaitsim.errors import Fault, Faults, InvalidComponent, Mark, did_you_mean, 
 from gaitsim.parts.build import build_faults, placed
 from gaitsim.parts.curve import curve_faults
 from gaitsim.parts.declaration import field_faults, unknown_fields
+from gaitsim.parts.start_range import range_faults
 
 SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "start": ("p", "u", "x"),
@@ -159,6 +160,8 @@ class _Check:
             faults = list(field_faults(name, one))
             if isinstance(one, Curve) and not faults:
                 faults = list(curve_faults(name, one, self.known, self.helpers))
+            elif isinstance(one, Input | Output | State) and not faults:
+                faults = list(range_faults(name, one, self.known))
             for message in faults:
                 self.add(message, self.places.get(name))
 

@@ -85,9 +85,16 @@ _FIELDS = {
         lambda v: isinstance(v, Mapping) and all(map(_numbers, v.values())),
         'values one after the other, such as {"excitation": (0, 1, 0)}',
     ),
+    "usual": (
+        lambda v: (
+            v is None or (isinstance(v, tuple) and len(v) == 2 and all(isinstance(x, str) or _number(x) for x in v))
+        ),
+        'two ends in brackets, such as (0, 1) or ("lower - 0.1", "upper + 0.1")',
+    ),
     "over_unit": _FIELDS["unit"],
     "inverse": _FIELDS["sums"],
 }
+_FIELDS |= {"possible": _FIELDS["usual"]}
 _FIELDS |= {"sends": _FIELDS["reads"], "gives": _FIELDS["reads"], "optional": _FIELDS["sums"]}
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 from gaitsim.model import Model
@@ -11,12 +11,18 @@ from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode, Simulator
 
 
-def run_all(models: Sequence[Model], mode: Mode) -> Iterator[Outcome]:
-    """The outcomes of models, in their order.
+def run_all(
+    models: Sequence[Model], mode: Mode, prepared: Callable[[Simulator], None] | None = None
+) -> Iterator[Outcome]:
+    """The outcomes of models, in their order; `prepared` sees each simulator before any runs.
 
     Errors: InvalidSpec, InvalidComponent, from the first model that does not compile.
     """
     # Prepared one after the other: compiling components is not for threads.
-    simulators = [Simulator(model, mode) for model in models]
+    simulators = []
+    for model in models:
+        simulators.append(Simulator(model, mode))
+        if prepared:
+            prepared(simulators[-1])
     with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
         yield from pool.map(lambda simulator: simulator.run(), simulators)

@@ -89,6 +89,14 @@ class Simulator:
         wall = time.perf_counter() - began
         return Outcome(status, reason, ending.steps, simulate.step, metrics, score, wall, trajectory)
 
+    def first_instant(self) -> dict[str, float]:
+        """Every recorded signal at the start of the model's own numbers, in SI; empty if it fails at once."""
+        with np.errstate(all="ignore"):
+            ending: Ending = self._loop.run(self.model.values(), 1, True)
+        if ending.record is None or not len(ending.record):
+            return {}
+        return dict(zip(self.program.signals, map(float, ending.record[0]), strict=True))
+
     def _judged(self, ending: Ending, values: Sequence[float]) -> tuple[dict[str, float], float | None, str | None]:
         """Metrics and score, or why there are none."""
         if ending.failure:

@@ -10,12 +10,14 @@ class Skeleton(Component):
         "s/m", "c: how much less force there is on the way up.", default=0.5, bounds=(0, 10), source="definition: some"
     )
     position = Output("m", "Where the point is along the ground.")
-    height = Output("m", "Height of the point above the ground.")
+    height = Output("m", "Height of the point above the ground.", usual=(-0.03, 100), possible=(-0.3, 1e4))
     velocity = Output("m/s", "Upward velocity of the point.")
     weight = Output("N", "Weight of all that moves.")
     force = Output("N", "Force of the ground on the point, upwards.")
     friction_force = Output("N", "Force along the ground, forwards; here none.")
-    load = Output("1", "Force in weights of all that moves; 0 without gravity.")
+    load = Output(
+        "1", "Force in weights of all that moves; 0 without gravity.", usual=(0, 3), possible=(0, 20)
+    )
     in_contact = Output("1", "1 while the point is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, k d^2 / 2.")
 

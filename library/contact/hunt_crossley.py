@@ -91,13 +91,17 @@ class HuntCrossley(Component):
     center_height = Output("m", "Height of the sphere's center.")
     velocity = Output("m/s", "Its rate.")
     slip_velocity = Output("m/s", "Forward velocity of the sphere's lowest point.")
-    height = Output("m", "Height of the sphere's lowest point above the ground.")
+    height = Output(
+        "m", "Height of the sphere's lowest point above the ground.", usual=(-0.03, 100), possible=(-0.3, 1e4)
+    )
     weight = Output("N", "Weight of all that moves.")
     spring = Output("N", "Normal force without velocity.")
     drag = Output("N s/m", "Damping along the ground.")
     force = Output("N", "Force of the ground on the sphere, along the ground's normal; one step old.")
     friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground; one step old.")
-    load = Output("1", "Force in weights of all that moves; one step old.")
+    load = Output(
+        "1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20)
+    )
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, 2/5 d F at rest.")
 

@@ -71,13 +71,17 @@ class Mujoco(Component):
     ground_slope = Input("rad", "By how much the ground rises forwards.", default=0)
     position = Output("m", "Where the sphere's center is along the ground.")
     center_height = Output("m", "Height of the sphere's center.")
-    height = Output("m", "Height of the sphere's lowest point above the ground.")
+    height = Output(
+        "m", "Height of the sphere's lowest point above the ground.", usual=(-0.03, 100), possible=(-0.3, 1e4)
+    )
     weight = Output("N", "Weight of all that moves.")
     pushed_forwards = Output("N", "Forward force of the sphere on the ground, in the world.")
     pushed_upwards = Output("N", "Upward force of the sphere on the ground, in the world.")
     force = Output("N", "Force of the ground on the sphere, along the ground's normal; one step old.")
     friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground; one step old.")
-    load = Output("1", "Force in weights of all that moves; one step old.")
+    load = Output(
+        "1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20)
+    )
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy as of a linear spring, force times depth / 2; one step old.")
 

@@ -20,12 +20,14 @@ class SpringDamper(Component):
     )
     ground_height = Input("m", "Height of the ground where the point is.", default=0)
     position = Output("m", "Where the point is along the ground.")
-    height = Output("m", "Height of the point.")
+    height = Output("m", "Height of the point.", usual=(-0.03, 100), possible=(-0.3, 1e4))
     velocity = Output("m/s", "Upward velocity of the point.")
     weight = Output("N", "Weight of all that moves.")
     force = Output("N", "Force of the ground on the point, upwards.")
     friction_force = Output("N", "Force along the ground: none.")
-    load = Output("1", "Force in weights of all that moves; 0 without gravity.")
+    load = Output(
+        "1", "Force in weights of all that moves; 0 without gravity.", usual=(0, 3), possible=(0, 20)
+    )
     in_contact = Output("1", "1 while the point is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, k d^2 / 2.")
 

@@ -9,7 +9,7 @@ class Skeleton(Component):
     stiffness = Parameter("N m/rad", "k.", default=10, bounds=(0, 1e6), source="definition: a beginning")
     rest = Parameter("rad", "phi_0: angle without torque.", default=0, bounds=(-6.3, 6.3), source="definition: aligned")
     torque = Input("N m", "Torque on the child about the hinge's axis.", sums=True)
-    angle = Output("rad", "Angle from the posture in which the two frames are aligned.")
+    angle = Output("rad", "Angle from the posture in which the two frames are aligned.", usual=(-6.3, 6.3))
     velocity = Output("rad/s", "Angular velocity.")
     total = Output("N m", "Torque of the spring and the senders together.")
 

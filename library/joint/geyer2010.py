@@ -52,12 +52,17 @@ class Geyer2010(Component):
     below = State("N m", "What the lower stop had at rest one step ago.")
     above = State("N m", "What the upper stop had at rest one step ago.")
     stepped = State(levels=("no", "yes"), doc="Whether there is a step before.")
-    angle = Output("rad", "Angle.")
+    angle = Output(
+        "rad",
+        "Angle.",
+        usual=("lower - 0.1", "upper + 0.1"),
+        possible=("lower - pi / 2", "upper + pi / 2"),
+    )
     angular_velocity = Output("rad/s", "Rate of the angle.")
     lower_spring = Output("N m", "What the lower stop would have at rest, c d.")
     upper_spring = Output("N m", "What the upper stop would have at rest, c d.")
     stop_moment = Output("N m", "Moment of the stops; positive at the lower one; one step old.")
-    stop_energy = Output("J", "Elastic energy in the stops, c d^2 / 2.")
+    stop_energy = Output("J", "Elastic energy in the stops, c d^2 / 2.", usual=(0, 5), possible=(0, 1000))
 
     largest_step = StepLimit(
         "ms",

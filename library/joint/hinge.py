@@ -17,7 +17,7 @@ class Hinge(Component):
         source="definition: an ideal hinge",
     )
     torque = Input("N m", "Torque on the child about the hinge's axis.", sums=True)
-    angle = Output("rad", "Angle from the posture in which the two frames are aligned.")
+    angle = Output("rad", "Angle from the posture in which the two frames are aligned.", usual=(-6.3, 6.3))
     velocity = Output("rad/s", "Angular velocity.")
 
     @staticmethod

@@ -29,10 +29,15 @@ class LimitedHinge(Component):
         source="definition: an ideal hinge",
     )
     torque = Input("N m", "Torque on the child about the hinge's axis.", sums=True)
-    angle = Output("rad", "Angle from the posture in which the two frames are aligned.")
+    angle = Output(
+        "rad",
+        "Angle from the posture in which the two frames are aligned.",
+        usual=("lower - 0.1", "upper + 0.1"),
+        possible=("lower - pi / 2", "upper + pi / 2"),
+    )
     velocity = Output("rad/s", "Angular velocity.")
     stop = Output("N m", "Torque of the stops on the child; positive at the lower one.")
-    stop_energy = Output("J", "Elastic energy in the stops.")
+    stop_energy = Output("J", "Elastic energy in the stops.", usual=(0, 5), possible=(0, 1000))
     total = Output("N m", "Torque of stops and senders together.")
 
     stops = Curve(

@@ -20,7 +20,7 @@ class Planar(Component):
     moment = Input("N m", "Moment that leans the child forwards.", sums=True)
     x = Output("m", "How far the child is in front of the parent.")
     z = Output("m", "How high the child is above the parent.")
-    pitch = Output("rad", "How far the child leans forwards.")
+    pitch = Output("rad", "How far the child leans forwards.", usual=(-6.3, 6.3))
     forward_velocity = Output("m/s", "Rate of x.")
     upward_velocity = Output("m/s", "Rate of z.")
     pitch_velocity = Output("rad/s", "Rate of the pitch.")

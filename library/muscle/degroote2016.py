@@ -158,7 +158,12 @@ class DeGroote2016(Component):
     )
     excitation = Input("1", "Sum of all stimulations.", sums=True)
     activation_level = Input("1", "Activation.")
-    path_length = Input("m", "Length of the whole muscle-tendon unit.")
+    path_length = Input(
+        "m",
+        "Length of the whole muscle-tendon unit.",
+        usual=("tendon_slack_length + 0.3 * optimal_fiber_length", 10),  # below it, the tendon is slack
+        possible=("0.5 * tendon_slack_length", 10),
+    )
     path_velocity = Input("m/s", "Its lengthening velocity.")
 
     length = State("m", "Length of the fiber.")
@@ -166,10 +171,12 @@ class DeGroote2016(Component):
     beside_before = State("1", "f_PE one step ago.")
 
     force = Output("N", "Force of the muscle-tendon unit.")
-    normalized_force = Output("1", "Force in F_max.")
+    normalized_force = Output("1", "Force in F_max.", usual=(0, 1.5), possible=(0, 10))
     activation = Output("1", "Activation A.")
     fiber_length = Output("m", "Length of the fiber.")
-    normalized_fiber_length = Output("1", "Length of the fiber in optimal lengths.")
+    normalized_fiber_length = Output(
+        "1", "Length of the fiber in optimal lengths.", usual=(0.4, 1.6), possible=(0, 2.5)
+    )
     fiber_velocity = Output("m/s", "Velocity of the fiber, shortening negative.")
     normalized_fiber_velocity = Output("1", "Velocity of the fiber in v_max.")
     fiber_force = Output("N", "Active force of the fiber, A F_max f_l f_v, along the fiber.")

@@ -185,3 +185,27 @@ def test_what_a_file_may_hold(source: str, message: str) -> None:
 
 def test_the_future_and_a_docstring_are_fine() -> None:
     parse(f'"""Doc."""\nfrom __future__ import annotations\n{IMPORT}{PROBE}', "hill.py")
+
+
+@pytest.mark.parametrize(
+    ("declared", "said"),
+    [
+        ('Output("N", "F.", usual=(3, 1))', "other: usual (3, 1) is no range; write the lower end first."),
+        (
+            'Output("N", "F.", possible=(0, "peak"))',
+            "other: possible: peak is no parameter of this mask. Known here: gain.",
+        ),
+        (
+            'Output("N", "F.", usual=(0, "gain"))',
+            "other: usual: =gain gives a plain number; this needs a force, so multiply or divide by what is missing.",
+        ),
+        (
+            'Output("N", "F.", usual=1)',
+            'other: usual is 1; write two ends in brackets, such as (0, 1) or ("lower - 0.1", "upper + 0.1").',
+        ),
+        ('State("1", "S.", size=3, usual=(0, 1))', "other: a range is of one number; leave out usual."),
+    ],
+)
+def test_ranges_at_the_start(declared: str, said: str) -> None:
+    source = f"{HEAD}    other = {declared}\n{function('output(p, u, x, y)', 'y.force = 0', 'y.other = 1')}"
+    assert said in faults_of(source)

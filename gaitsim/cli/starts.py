@@ -1,0 +1,35 @@
+"""What a command says of how its runs start: warned of what is unusual, refused what is beyond reason."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from gaitsim.errors import InvalidSpec
+
+if TYPE_CHECKING:
+    from gaitsim.errors import Fault
+    from gaitsim.results.source import Source
+    from gaitsim.simulation.run import Simulator
+
+
+class Starts:
+    """Looks at simulators once they are prepared, and keeps what is unusual, each thing once."""
+
+    def __init__(self, source: Source) -> None:
+        # A result ran as it is: it is shown, whatever one thinks of its start.
+        self._refuses = not source.manifest
+        self.unusual: list[Fault] = []
+
+    def look_at(self, simulator: Simulator) -> None:
+        """Errors: InvalidSpec for a start that cannot be meant."""
+        from gaitsim.simulation.starting import start_doubts
+
+        doubts = start_doubts(simulator)
+        if doubts.impossible and self._refuses:
+            raise InvalidSpec(doubts.impossible)
+        self.unusual += [f for f in (*doubts.impossible, *doubts.unusual) if f not in self.unusual]
+
+    @property
+    def warnings(self) -> list[str]:
+        """In words."""
+        return [f"warning: {fault}" for fault in self.unusual]

@@ -1,0 +1,94 @@
+"""Is the start of a run one that can be meant? What every part declares of its signals is looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+
+from gaitsim.component import End
+from gaitsim.errors import Fault
+from gaitsim.model import Model, Part
+from gaitsim.parts.start_range import Ranged, end_in_si, units_of
+from gaitsim.simulation.run import Simulator
+from gaitsim.units import parse_unit
+
+
+@dataclass(frozen=True)
+class Doubts:
+    """What is unusual at a start, and what is beyond reason."""
+
+    unusual: tuple[Fault, ...] = ()
+    impossible: tuple[Fault, ...] = ()
+
+
+def start_doubts(simulator: Simulator) -> Doubts:
+    """Signals of the first instant that are outside the ranges that components declare."""
+    model, signals = simulator.model, simulator.first_instant()
+    for connection in model.connections:
+        if connection.source in signals:
+            signals[connection.target] = signals.get(connection.target, 0.0) + signals[connection.source]
+    values = model.values()
+    unusual, impossible = list[Fault](), list[Fault]()
+    for part in model.parts:
+        numbers = {name: values[index] for name, index in part.numbers.items()}
+        for name, declared in _ranged(part):
+            address = f"{part.address}.{name}"
+            if address in signals:
+                start = _Start(model, part, address, declared, signals[address], numbers)
+                if start.beyond(declared.possible):
+                    impossible.append(start.fault)
+                elif start.beyond(declared.usual):
+                    unusual.append(start.fault)
+    return Doubts(tuple(unusual), tuple(impossible))
+
+
+def _ranged(part: Part) -> Iterator[tuple[str, Ranged]]:
+    """The signals of a part that have a range."""
+    homes: list[Mapping[str, Ranged]] = [part.type.inputs, part.type.outputs, part.type.states]
+    for name, declared in (item for home in homes for item in home.items()):
+        if declared.usual or declared.possible:
+            yield name, declared
+
+
+@dataclass(frozen=True)
+class _Start:
+    """One signal at the start, in SI, with what was declared of it and the numbers of its part."""
+
+    model: Model
+    part: Part
+    address: str
+    declared: Ranged
+    value: float
+    numbers: Mapping[str, float]
+
+    def beyond(self, ends: tuple[End, End] | None) -> tuple[End, str] | None:
+        """The end of a range that the value is beyond, but for rounding, and which end that is."""
+        if ends is None:
+            return None
+        rounding = 1e-9 * max(1.0, abs(self.value))
+        if self.value < self._si(ends[0]) - rounding:
+            return ends[0], "least"
+        return (ends[1], "most") if self.value > self._si(ends[1]) + rounding else None
+
+    @property
+    def fault(self) -> Fault:
+        said = [f"at the start this is {self._told(self.value)}"]
+        for word, ends in (("usual", self.declared.usual), ("possible", self.declared.possible)):
+            passed = self.beyond(ends)
+            if passed:
+                end, side = passed
+                origin = f" ({end})" if isinstance(end, str) else ""
+                said.append(f"{word} is {self._told(self._si(end))}{origin} at {side}")
+        initial = self.model.initial.get(self.address)
+        mark = self.part.mark if initial is None else self.model.numbers[initial].mark
+        return Fault(f"{', '.join(said)}; change initial:, or the numbers of this part.", mark, self.address)
+
+    def _si(self, end: End) -> float:
+        return end_in_si(end, self.declared.unit, units_of(self.part.type.parameters), self.numbers)
+
+    def _told(self, number: float) -> str:
+        """A number in SI with its unit; angles in deg."""
+        unit = self.declared.unit
+        if parse_unit(unit).dimension == parse_unit("deg").dimension:
+            unit = "deg"
+        return f"{number / parse_unit(unit).factor:.4g}{'' if unit == '1' else f' {unit}'}"

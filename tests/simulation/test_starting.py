@@ -1,0 +1,137 @@
+"""How a run starts: what is unusual is warned of, what cannot be meant is refused."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from gaitsim.cli.main import main
+from gaitsim.cli.source import source_of_spec
+from gaitsim.simulation.run import Simulator
+from gaitsim.simulation.starting import Doubts, start_doubts
+from gaitsim.spec.study import variants
+from simulation.models import ROOT, SPECS, model, written
+
+MOVE = "change initial:, or the numbers of this part."
+
+
+def doubts(spec: str, *settings: tuple[str, str]) -> Doubts:
+    return start_doubts(Simulator(model(ROOT / "specs" / f"{spec}.yaml", settings)))
+
+
+@pytest.mark.parametrize("spec", SPECS, ids=lambda path: path.stem)
+def test_no_shipped_spec_starts_unusually(spec: Path) -> None:
+    source = source_of_spec(spec, None, None, tuned=True)
+    simulator = Simulator(source.model(variants(source.document, [])[0].document))
+    assert start_doubts(simulator) == Doubts()
+
+
+@pytest.mark.parametrize(
+    ("spec", "setting", "value", "address", "said"),
+    [
+        (
+            "walking_geyer2010",
+            "initial.leg_l.knee.angle",
+            "190 deg",
+            "leg_l.knee.angle",
+            "190 deg, usual is 180.7 deg (upper + 0.1) at most",
+        ),
+        (
+            "hopping_leg_mass",
+            "extensor.tendon_slack_length",
+            "60 cm",
+            "extensor.path_length",
+            "0.4881 m, usual is 0.63 m (tendon_slack_length + 0.3 * optimal_fiber_length) at least",
+        ),
+        (
+            "hopping_geyer2003",
+            "extensor.tendon_slack_length",
+            "30 cm",
+            "extensor.normalized_fiber_length",
+            "1.625, usual is 1.6 at most",
+        ),
+        ("pendulum_pid", "initial.pivot.angle", "400 deg", "pivot.angle", "400 deg, usual is 361 deg at most"),
+    ],
+)
+def test_what_is_unusual_is_warned_of(spec: str, setting: str, value: str, address: str, said: str) -> None:
+    found = doubts(spec, (setting, value))
+    assert found.impossible == ()
+    (fault,) = found.unusual
+    assert (fault.address, fault.message) == (address, f"at the start this is {said}; {MOVE}")
+
+
+@pytest.mark.parametrize(
+    ("spec", "setting", "value", "expected"),
+    [
+        (
+            "walking_geyer2010",
+            "initial.leg_l.knee.angle",
+            "40 rad",
+            {
+                "leg_l.knee.angle": "2292 deg, usual is 180.7 deg (upper + 0.1) at most, "
+                "possible is 265 deg (upper + pi / 2) at most",
+                "leg_l.knee.stop_energy": "1.173e+04 J, usual is 5 J at most, possible is 1000 J at most",
+            },
+        ),
+        (
+            "hopping_leg_mass",
+            "extensor.tendon_slack_length",
+            "10 cm",
+            {
+                "extensor.normalized_force": "23.06, usual is 1.5 at most, possible is 10 at most",
+                "extensor.normalized_fiber_length": "3.689, usual is 1.6 at most, possible is 2.5 at most",
+            },
+        ),
+        (
+            "hopping_leg_mass",
+            "initial.guide.position",
+            "0.4 m",
+            {
+                "ground.height": "-0.4305 m, usual is -0.03 m at least, possible is -0.3 m at least",
+                "ground.load": "133.1, usual is 3 at most, possible is 20 at most",
+            },
+        ),
+    ],
+)
+def test_what_is_beyond_reason_is_refused(spec: str, setting: str, value: str, expected: dict[str, str]) -> None:
+    found = doubts(spec, (setting, value))
+    told = {fault.address: fault.message for fault in found.impossible}
+    assert told == {address: f"at the start this is {said}; {MOVE}" for address, said in expected.items()}
+
+
+def test_a_component_gets_the_check_by_declaring() -> None:
+    text = """
+parts:
+  rod: {use: segment/rod, mass: 2 kg, length: 1 m}
+  pivot:
+    {use: joint/limited_hinge, parent: world, child: rod.proximal, lower: -10 deg, upper: 20 deg, stiffness: 1 N m/rad}
+  relay: {use: controller/ranged, signal: {from: pivot.angle}, highest: 0.2, to: pivot.torque}
+initial: {pivot.angle: 30 deg}
+simulate: {duration: 0.1 s, step: 1 ms}
+"""
+    found = start_doubts(Simulator(written(f"gaitsim: 1{text}")))
+    assert [f"{fault.address}: {fault.message}" for fault in found.unusual] == [
+        f"pivot.angle: at the start this is 30 deg, usual is 25.73 deg (upper + 0.1) at most; {MOVE}",
+        f"relay.signal: at the start this is 30 deg, usual is 11.46 deg (highest) at most; {MOVE}",
+    ]
+
+
+@pytest.mark.parametrize("command", ["check", "run", "optimize"])
+@pytest.mark.parametrize("wrong", [False, True])
+def test_each_command_says_it(
+    command: str, wrong: bool, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    spec = ROOT / "specs" / "hopping_leg_mass.yaml"
+    setting = f"extensor.tendon_slack_length={'10 cm' if wrong else '{value: 60 cm, tune: [38 cm, 62 cm]}'}"
+    words = [command, str(spec), "--set", setting, "--set", "simulate.duration=10 ms"]
+    words += ["--smoke", "--workers", "0"] if command == "optimize" else []
+    words += ["--start", "--no-save"] if command == "run" else []
+    with pytest.raises(SystemExit) as ended:
+        main(words)
+    err = capsys.readouterr().err
+    assert (ended.value.code == 3) is wrong
+    said = "extensor.normalized_force: at the start this is 23.06" if wrong else "extensor.path_length: at the start"
+    assert said in err
+    assert ("warning: " in err) is not wrong
