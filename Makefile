@@ -9,9 +9,9 @@ PYTHONS := $(PYTHON) python3.13 python3.12 python3.11 python3
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 export GAITSIM_CACHE := $(CURDIR)/.cache/gaitsim
 
-.PHONY: help setup run test check bench muscles walker clean
+.PHONY: help setup run test test-all check bench bench-page muscles walker clean
 help:
-	@sed -n 's/^\([a-z]*\):.*## /make \1	/p' Makefile
+	@sed -n 's/^\([a-z-]*\):.*## /make \1	/p' Makefile
 
 setup: $(READY) ## make .venv with gaitsim and the tools for its tests
 run: $(READY) ## simulate the hopper of Geyer et al. (2003)
@@ -21,14 +21,21 @@ check: $(READY) ## ruff and mypy
 	.venv/bin/ruff check .
 	.venv/bin/mypy
 
-# pytest's 5 is "no tests": there need not be slow ones.
-test: check ## check, then the fast tests, then the slow ones
-	.venv/bin/pytest -n 2 -m "not slow"
-	.venv/bin/pytest -n 2 -m slow || test $$? -eq 5
+# Neighbouring tests stay in one process, so that what a file shares is made once.
+TESTS := .venv/bin/pytest -n 2 --dist worksteal
 
-bench: $(READY) ## time a step against a bare mj_step loop in C, and workers against one process
-	.venv/bin/python bench/bench.py
+test: check ## check, then the fast tests: what must hold before a change is merged
+	$(TESTS) -m "not slow"
+
+test-all: check ## check, then all tests, with long physics and killed searches: before a release
+	$(TESTS)
+
+bench: $(READY) ## time steps, whole commands, growing models, and workers (four minutes)
+	.venv/bin/python bench/bench.py $(BENCH)
 	.venv/bin/python bench/overhead.py
+
+bench-page: $(READY) ## the same without workers, as docs/benchmarks.md
+	.venv/bin/python bench/bench.py --page docs/benchmarks.md
 
 muscles: $(READY) ## tune the hopper with every muscle model: height, work, wall time (some minutes)
 	.venv/bin/python bench/muscle_models.py

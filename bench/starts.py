@@ -1,0 +1,48 @@
+"""How long `gaitsim run` takes as a whole: the first time after an installation, and from then on."""
+
+from __future__ import annotations
+
+import os
+import statistics
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from rows import Report, Section
+
+SPECS = ("hopping_geyer2003", "walking_geyer2010")
+REPEATS = 3
+STARTS = Section(
+    "Whole commands",
+    {"first run": "s", "later runs": "s", "version": "s"},
+    "Wall time of `gaitsim run SPEC --no-save` in a process of its own: with an empty cache, so that all native code "
+    f"is compiled, and the median of {REPEATS} runs after that. `gaitsim --version` is what no command can be below.",
+)
+
+
+def starts(report: Report) -> Iterator[str]:
+    """Rows of the specs that a newcomer runs first."""
+    report.begin(STARTS)
+    folder = Path(__file__).resolve().parents[1] / "specs"
+    with tempfile.TemporaryDirectory() as place:
+        least = statistics.median(_seconds(place, "--version") for _ in range(REPEATS))
+        for name in SPECS:
+            if report.has_time(f"first run of {name}"):
+                words = ("run", str(folder / f"{name}.yaml"), "--no-save")
+                with tempfile.TemporaryDirectory() as empty:
+                    first = _seconds(empty, *words)
+                    later = statistics.median(_seconds(empty, *words) for _ in range(REPEATS))
+                report.add(name, {"first run": first, "later runs": later, "version": least})
+    yield from ()
+
+
+def _seconds(cache: str, *words: str) -> float:
+    environment = os.environ | {"GAITSIM_CACHE": cache, "NUMBA_CACHE_DIR": f"{cache}/numba"}
+    began = time.perf_counter()
+    subprocess.run(
+        [sys.executable, "-m", "gaitsim.cli.main", *words], env=environment, check=True, capture_output=True, cwd=cache
+    )
+    return time.perf_counter() - began
