@@ -13,7 +13,7 @@ from gaitsim.cli.starts import Starts
 from gaitsim.cli.tuning import Tuning
 from gaitsim.errors import Fault, InvalidSpec, Mark, Usage, did_you_mean
 from gaitsim.optimization.algorithms import ALGORITHMS
-from gaitsim.optimization.journal import evaluations_in
+from gaitsim.optimization.journal import old_form_notices, read
 from gaitsim.results.bundle import SPEC, START, Bundle, bundle_model, read_bundle
 from gaitsim.results.episodes import episode_models
 from gaitsim.results.manifest import BadResult, changed_versions, is_result, new_manifest, read_manifest
@@ -75,10 +75,10 @@ def begun(request: Request, root: Path) -> Tuning:
     simulator, starts = Simulator(model, mode), Starts(source)
     starts.look_at(simulator)
     bundle = source.bundle([model, *each])
-    manifest = new_manifest("optimize", bundle, mode, spec=str(request.spec), search=search, notices=notices)
+    told = {"spec": str(request.spec), "search": search, "smoke": request.smoke, "notices": notices}
+    manifest = new_manifest("optimize", bundle, mode, **told)
     folder = create_result(root, bundle, model, simulator.xml, manifest, {"evaluations.jsonl": ""})
-    told = [*model.notices, *starts.warnings, *notices]
-    return Tuning(folder, manifest, bundle, bundle_model(folder, bundle.name), told)
+    return Tuning(folder, manifest, bundle, model, [*model.notices, *starts.warnings, *notices])
 
 
 def resumed(request: Request, root: Path) -> Tuning:
@@ -101,12 +101,13 @@ def resumed(request: Request, root: Path) -> Tuning:
     if not is_result(request.spec):
         _check_same_spec(request, folder, bundle)
     _check_same_search(request, search, str(manifest["mode"]))
-    done = max((e.candidate.generation for e in evaluations_in(folder)), default=0)
+    done = max((e.candidate.generation for e in read(folder)), default=0)
     if request.generations is not None and request.generations < done:
         raise Usage(f"--generations {request.generations}: {folder} has {done} generations already; ask for more.")
     search["generations"] = request.generations or search["generations"]
     model = bundle_model(folder, bundle.name)
-    return Tuning(folder, manifest | {"search": search}, bundle, model, [f"resuming {folder}"])
+    notices = [f"resuming {folder}", *old_form_notices(folder)]
+    return Tuning(folder, manifest | {"search": search}, bundle, model, notices)
 
 
 def _check_beside_resume(request: Request) -> None:
@@ -165,18 +166,24 @@ def _search_of(source: Source, request: Request) -> dict[str, Any]:
 
 
 def _newest(spec: Path, root: Path) -> Path:
-    """The newest search of a spec; whether it is damaged is seen when it is read."""
-    found = []
+    """The newest search of a spec that is more than a trial; whether it is damaged is seen when it is read."""
+    found: list[tuple[str, float, Path]] = []
+    trials: list[tuple[str, float, Path]] = []
     for path in root.glob(f"*-{spec.stem}-*/manifest.json"):
         try:
             manifest = json.loads(path.read_text(encoding="utf-8"))
             if manifest["kind"] == "optimize" and manifest["name"] == spec.stem and path.parent.suffix != ".partial":
-                found.append((str(manifest["created"]), path.stat().st_mtime, path.parent))
-        except (OSError, ValueError, KeyError, TypeError):
+                place = (str(manifest["created"]), path.stat().st_mtime, path.parent)
+                (trials if manifest.get("smoke") else found).append(place)
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
             continue
-    if not found:
-        raise BadResult(f"{root}: there is no search of {spec} to resume; start one without --resume.")
-    return max(found)[2]
+    if found:
+        return max(found)[2]
+    rule = f"{root}: there is no search of {spec} to resume"
+    if trials:
+        move = f"name it to continue it: gaitsim optimize {max(trials)[2]} --resume"
+        raise BadResult(f"{rule} but one by --smoke; {move}")
+    raise BadResult(f"{rule}; start one without --resume.")
 
 
 def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:

@@ -11,6 +11,7 @@ import typer
 
 from gaitsim import __version__
 from gaitsim.cli import analyze, check, cite, console, library, limit, new, optimize, results, run, schema, show, view
+from gaitsim.cli.interrupts import heard_once
 from gaitsim.errors import ExitCode, GaitsimError
 
 app = typer.Typer(
@@ -52,7 +53,8 @@ def _main(
 def main(arguments: list[str] | None = None) -> None:
     """Run one command; the exit code tells the kind of failure."""
     try:
-        code = _ran(sys.argv[1:] if arguments is None else arguments)
+        with heard_once():
+            code = _ran(sys.argv[1:] if arguments is None else arguments)
     except BrokenPipeError:
         # The reader of our output is gone (such as head); there is no one left to tell.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())

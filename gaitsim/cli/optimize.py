@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from gaitsim.cli.adoption import Adoption
     from gaitsim.cli.tuning import Tuning
     from gaitsim.cli.workplace import Workplace
+    from gaitsim.optimization.evaluation import Evaluation
     from gaitsim.optimization.search import Progress
 
 _INTERRUPTED = 130
@@ -98,7 +99,7 @@ def optimize(
 def _search(tuning: Tuning, workplace: Workplace, may_discard: bool) -> Progress:
     """Run the search with one line of progress; an error says how to go on."""
     from gaitsim.cli.progress import ProgressLine
-    from gaitsim.cluster.connect import ClusterError
+    from gaitsim.cluster.unreachable import ClusterError
     from gaitsim.results.store import CannotSave
 
     line = ProgressLine(tuning.generations)
@@ -125,7 +126,16 @@ def _again(tuning: Tuning, workplace: Workplace) -> str:
     return shlex.join(["gaitsim", "optimize", str(tuning.folder), "--resume", *workplace.words])
 
 
+def _failure_data(count: int, example: Evaluation) -> dict[str, object]:
+    from gaitsim.optimization.failures import reason_of
+
+    place = example.candidate.name
+    return {"count": count, "status": example.verdict.status, "reason": reason_of(example), "candidate": place}
+
+
 def _report(tuning: Tuning, progress: Progress, wall: float, json: bool, adoption: Adoption | None) -> None:
+    from gaitsim.optimization.failures import reason_of
+
     best = progress.best
     assert best is not None
     if adoption:
@@ -138,6 +148,7 @@ def _report(tuning: Tuning, progress: Progress, wall: float, json: bool, adoptio
                 "evaluations": progress.evaluations,
                 "generations": progress.generation,
                 "failed": progress.failed,
+                "failures": [_failure_data(count, example) for count, example in progress.failures.most_common],
                 "wall_seconds": wall,
                 "stop": progress.stop,
                 **({"adopted": adoption.written} if adoption else {}),
@@ -149,11 +160,13 @@ def _report(tuning: Tuning, progress: Progress, wall: float, json: bool, adoptio
         for v, x in zip(tuning.problem.variables, best.candidate.x, strict=True)
     ]
     console.give_table(["tuned", "best", "unit", "bounds"], rows)
-    place = best.candidate
     score = console.shown(best.verdict.score)
     console.give(
-        f"best score {score} (candidate {place.generation}:{place.index}) after {progress.evaluations} evaluations in "
+        f"best score {score} (candidate {best.candidate.name}) after {progress.evaluations} evaluations in "
         f"{progress.generation} generations, {progress.failed} failed, {wall:.3g} s of wall time"
     )
+    for count, example in progress.failures.most_common:
+        look = shlex.join(["gaitsim", "run", str(tuning.folder), "--candidate", example.candidate.name])
+        console.give(f"{count} failed: {reason_of(example)}; see such as: {look}")
     console.give(f"stopped: {progress.stop}")
     console.say(f"saved in {tuning.folder}; see it: gaitsim run {tuning.folder}")

@@ -1,4 +1,4 @@
-"""One line of progress: rewritten on a terminal, a plain line a generation elsewhere."""
+"""One line of progress: rewritten on a terminal, a plain line each few seconds elsewhere."""
 
 from __future__ import annotations
 
@@ -22,30 +22,29 @@ class ProgressLine:
         self._generations = generations
         self._terminal = sys.stderr.isatty()
         self._began = self._said = time.monotonic()
-        self._generation = -1
+        self._shown = ""
 
     def update(self, progress: Progress) -> None:
         now = time.monotonic()
-        every = _EVERY if self._terminal else _PLAIN_EVERY
-        last = progress.generation == self._generations and progress.generation != self._generation
-        if now - self._said < every and not last:
+        last = progress.generation == self._generations
+        if now - self._said < (_EVERY if self._terminal else _PLAIN_EVERY) and not last:
             return
-        if not self._terminal and progress.generation == self._generation:
-            return
-        self._said, self._generation = now, progress.generation
         text = self._text(progress, now - self._began)
+        if text == self._shown:
+            return
+        self._said, self._shown = now, text
         if self._terminal:
             console.rewrite(text)
         else:
             console.say(text)
 
     def close(self) -> None:
-        if self._terminal and self._generation >= 0:
+        if self._terminal and self._shown:
             console.say("")
 
     def _text(self, progress: Progress, seconds: float) -> str:
         rate = progress.evaluated_now / seconds if seconds > 0 else 0.0
-        done = max(progress.generation, 1)
+        done = max(progress.generation - progress.began + 1, 1)
         left = (self._generations - progress.generation) * seconds / done if progress.evaluated_now else 0.0
         score = progress.best.verdict.score if progress.best else None
         return (

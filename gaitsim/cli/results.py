@@ -74,6 +74,7 @@ def verify(
 
     Example: gaitsim results verify results/2026-11-22-hopping-3f9c
     """
+    from gaitsim.optimization.journal import old_form_notices
     from gaitsim.results.manifest import changed_versions, read_manifest
     from gaitsim.results.trust import check_trust
     from gaitsim.results.verify import verified
@@ -81,6 +82,8 @@ def verify(
     manifest = read_manifest(folder)
     check_trust(folder, trust)
     changed = changed_versions(manifest)
+    for notice in old_form_notices(folder) if manifest["kind"] == "optimize" else ():
+        console.say(notice)
     checks = list(verified(folder, manifest, everything))
     wrong = [check for check in checks if check.differs]
     if changed:
@@ -97,6 +100,8 @@ def verify(
 
 
 def _summary(folder: Path) -> dict[str, Any]:
+    from gaitsim.results.lock import state_of
+
     try:
         manifest = json_text.loads((folder / "manifest.json").read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -104,5 +109,6 @@ def _summary(folder: Path) -> dict[str, Any]:
     manifest = manifest if isinstance(manifest, dict) else {}
     keys = ("kind", "status", "best_score", "evaluations", "created")
     known = {key: manifest.get(key) for key in keys}
-    damaged = {"kind": known["kind"] or "?", "status": known["status"] or "damaged", "created": known["created"] or ""}
+    status = state_of(folder, str(known["status"] or "damaged"))
+    damaged = {"kind": known["kind"] or "?", "status": status, "created": known["created"] or ""}
     return {"result": str(folder), **known, **damaged}

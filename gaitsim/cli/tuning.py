@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import shutil
-from collections import Counter
 from collections.abc import Callable
 from contextlib import ExitStack, suppress
 from dataclasses import dataclass
@@ -15,8 +14,9 @@ from gaitsim.cluster.timings import Timings
 from gaitsim.errors import SimulationFailed
 from gaitsim.model import Model
 from gaitsim.optimization.algorithms import ALGORITHMS
+from gaitsim.optimization.failures import reason_of
 from gaitsim.optimization.history import GenerationsFile, parameters_csv
-from gaitsim.optimization.journal import Journal, evaluations_in
+from gaitsim.optimization.journal import Journal, read
 from gaitsim.optimization.problem import Problem
 from gaitsim.optimization.search import Budget, Progress, Search
 from gaitsim.results.bundle import Bundle
@@ -85,7 +85,7 @@ class Tuning:
         asked = self.manifest["search"]
         journal = Journal(self.folder)
         closing.callback(journal.close)
-        evaluator = workplace.evaluator(self.folder, self.bundle, self.mode, say)
+        evaluator = workplace.evaluator(self.bundle, self.mode, say)
         closing.callback(evaluator.close)
         rows, timings = GenerationsFile(self.folder), Timings(self.folder)
         closing.callback(rows.close)
@@ -95,15 +95,15 @@ class Tuning:
 
     def discard_if_empty(self) -> bool:
         """Remove a folder in which nothing was evaluated; whether that was so."""
-        if evaluations_in(self.folder):
+        if any(read(self.folder)):
             return False
         shutil.rmtree(self.folder)
         return True
 
     def _finish(self, progress: Progress) -> None:
         best = progress.best.candidate.x if progress.best and not progress.best.failed else None
-        evaluations = evaluations_in(self.folder)
-        (self.folder / "parameters.csv").write_text(parameters_csv(self.problem, best, evaluations), encoding="utf-8")
+        table = parameters_csv(self.problem, best, progress.last)
+        (self.folder / "parameters.csv").write_text(table, encoding="utf-8")
         score = progress.best.verdict.score if progress.best else None
         self.manifest = self.manifest | {
             "status": "complete",
@@ -123,8 +123,7 @@ class Tuning:
     def _refuse_if_all_failed(self, progress: Progress) -> None:
         if progress.best is not None and not progress.best.failed:
             return
-        reasons = Counter(e.verdict.reason or "there was no score" for e in evaluations_in(self.folder))
-        reason, count = reasons.most_common(1)[0]
-        rule = f"every one of {progress.evaluations} candidates failed; {count} because {reason}"
-        move = f"look at one: gaitsim run {self.folder} --candidate 0:0"
+        count, example = progress.failures.most_common[0]
+        rule = f"every one of {progress.evaluations} candidates failed; {count} because {reason_of(example)}"
+        move = f"look at one: gaitsim run {self.folder} --candidate {example.candidate.name}"
         raise SimulationFailed(f"{self.folder}: {rule}; {move}")

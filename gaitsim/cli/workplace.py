@@ -41,22 +41,21 @@ class Workplace:
         said = [word for option, value in named.items() if value is not None for word in (option, str(value))]
         return ["--cluster", *said] if self.cluster else said
 
-    def evaluator(self, folder: Path, bundle: Bundle, mode: Mode, say: Callable[[str], None]) -> Evaluator:
-        """What evaluates the candidates of a result.
+    def evaluator(self, bundle: Bundle, mode: Mode, say: Callable[[str], None]) -> Evaluator:
+        """What evaluates the candidates of a bundle.
 
         Errors: ClusterError.
         """
-        if self.workers == 0:
-            from gaitsim.cluster.evaluate import Bench, Serial
-            from gaitsim.results.episodes import bundle_episodes
-
-            return Serial(Bench(bundle_episodes(folder, bundle.name, mode), folder))
-        from gaitsim.cluster import connect
-
         if self.cluster:
-            client = connect.remote_client(self.scheduler, self.scheduler_file, say)
-        else:
-            client = connect.local_client(self.workers or connect.cores())
-        from gaitsim.cluster.parallel import Parallel
+            from gaitsim.cluster.connect import remote_client
+            from gaitsim.cluster.parallel import Parallel
 
-        return Parallel(client, bundle, mode)
+            return Parallel(remote_client(self.scheduler, self.scheduler_file, say), bundle, mode)
+        if self.workers == 0:
+            from gaitsim.cluster.evaluate import Serial, bench_of
+
+            return Serial(bench_of(bundle, mode))
+        from gaitsim.cluster.local import Local
+        from gaitsim.simulation.waiting import cores
+
+        return Local(bundle, mode, self.workers or cores())

@@ -1,55 +1,21 @@
-"""Connects to workers: all cores of this machine, or a scheduler that already runs."""
+"""Connects to a Dask scheduler that already runs."""
 
 from __future__ import annotations
 
 import asyncio
 import json
 import logging
-import os
 import re
-import signal
 import socket
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
-from multiprocessing import resource_tracker
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-from gaitsim.errors import ExitCode, GaitsimError
+from gaitsim.cluster.unreachable import ClusterError
 
 _PATIENCE = 15.0  # seconds until a scheduler must answer, and until it must have workers
 _GREETING = 5.0  # seconds until one that listens must show that it is a scheduler
 _ADDRESS = re.compile(r"(?:(?P<scheme>tcp|tls)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[^\s:/\[\]]+):(?P<port>\d{1,5})")
-
-
-class ClusterError(GaitsimError):
-    """The workers cannot be reached, or are lost."""
-
-    exit_code = ExitCode.CLUSTER
-
-
-def local_client(workers: int) -> Any:
-    """A client of `workers` processes on this machine, open to this machine only."""
-    import dask
-    from distributed import Client, LocalCluster
-
-    _quiet()
-    dask.config.set({"distributed.scheduler.allowed-failures": 1, "distributed.scheduler.http.routes": []})
-    try:
-        with _deaf_children():
-            cluster = LocalCluster(
-                n_workers=workers,
-                threads_per_worker=1,
-                host="127.0.0.1",
-                # None would open Dask's own port, 8787, with pages all the same.
-                dashboard_address="127.0.0.1:0",
-                scheduler_kwargs={"dashboard": False},
-                silence_logs=logging.CRITICAL,
-            )
-            return Client(cluster, set_as_default=False)
-    except (OSError, RuntimeError, TimeoutError) as error:
-        move = "use --workers 0 to do without"
-        raise ClusterError(f"{workers} workers cannot be started on this machine ({error}); {move}.") from error
 
 
 def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Callable[[str], None]) -> Any:
@@ -75,25 +41,6 @@ def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Calla
         client.close()
         raise ClusterError(f"{place}: the scheduler has no workers; start some: dask worker {address}.") from error
     return client
-
-
-def cores() -> int:
-    """How many processors this process may use."""
-    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-
-
-@contextmanager
-def _deaf_children() -> Iterator[None]:
-    """Ctrl-C reaches every process of a terminal; what is started here, now or later, leaves it to this one.
-
-    Threads inherit that the signal is blocked, and the workers that they start and restart do so from them.
-    """
-    resource_tracker.ensure_running()  # by itself it would be started later, and let the signal through
-    signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
-    try:
-        yield
-    finally:
-        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGINT})
 
 
 def _address_in(file: Path) -> str:

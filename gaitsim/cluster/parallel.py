@@ -5,17 +5,17 @@ from __future__ import annotations
 import contextlib
 import time
 import uuid
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 from queue import Empty, Queue
 from typing import Any
 
 from distributed import KilledWorker
 
-from gaitsim.cluster.connect import ClusterError
 from gaitsim.cluster.fingerprint import differences, fingerprint
+from gaitsim.cluster.patience import Found, Pace, Patience, killed, too_late
+from gaitsim.cluster.unreachable import ClusterError
 from gaitsim.cluster.worker import BundlePlugin, Chunk, Done, evaluate_chunk
-from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
+from gaitsim.optimization.evaluation import Candidate
 from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.run import Mode
 
@@ -25,25 +25,10 @@ _GATHER_SECONDS = 10.0  # a result is some kilobytes; one that takes longer was 
 _SAME = "give all workers this environment and start them again"
 
 Chunked = tuple[Candidate, ...]
-Found = tuple[Evaluation, float, str]
 
 
 class _ResultLost(Exception):
     """A worker finished a task, and died before its result was fetched."""
-
-
-@dataclass(frozen=True)
-class Patience:
-    """Seconds until something is given up. They are long: no score may depend on how fast a machine is."""
-
-    first: float = 3600.0  # for a candidate, while none is known
-    least: float = 60.0  # for a candidate, and so many times the mean of the others
-    times: float = 20.0
-    workers: float = 60.0  # without any worker
-
-    def limit(self, mean: float | None) -> float:
-        """How long one candidate may take."""
-        return self.first if mean is None else self.least + self.times * mean
 
 
 class Parallel:
@@ -52,7 +37,7 @@ class Parallel:
     def __init__(self, client: Any, bundle: Bundle, mode: Mode, patience: Patience | None = None) -> None:
         self._client, self._mode, self._digest = client, mode, bundle.digest
         self._patience = patience or Patience()
-        self._seconds: float | None = None
+        self._pace = Pace(self._patience)
         self._needs = fingerprint()
         self._plugin = BundlePlugin(bundle)
         try:
@@ -75,19 +60,23 @@ class Parallel:
             cluster.close()
 
     def __call__(self, candidates: Sequence[Candidate]) -> Iterator[Found]:
+        finished: Queue[Any] = Queue()
+        return self._in_turn({self._submit(chunk, finished): chunk for chunk in self._chunks(candidates)}, finished)
+
+    def _in_turn(self, waiting: dict[Any, Chunked], finished: Queue[Any]) -> Iterator[Found]:
         suspects: list[Candidate] = []
-        yield from self._found(self._chunks(candidates), suspects)
+        yield from self._found(waiting, finished, suspects)
         for candidate in suspects:
             # Alone, so that a worker's death is this candidate's doing and not its neighbour's.
             again: list[Candidate] = []
-            yield from self._found([(candidate,)], again)
+            yield from self._found({self._submit((candidate,), finished): (candidate,)}, finished, again)
             if again:
-                yield _given_up(candidate, "killed", "this candidate killed every worker that tried it")
+                yield killed(candidate)
 
-    def _found(self, chunks: Iterable[Chunked], suspects: list[Candidate]) -> Iterator[Found]:
-        """Evaluate chunks; whose workers died is added to the suspects."""
-        finished: Queue[Any] = Queue()
-        waiting = {self._submit(chunk, finished): chunk for chunk in chunks}
+    def _found(
+        self, waiting: dict[Any, Chunked], finished: Queue[Any], suspects: list[Candidate]
+    ) -> Iterator[Found]:
+        """What chunks that were submitted give; whose workers died is added to the suspects."""
         slow: set[Candidate] = set()
         while waiting:
             future = self._next(finished)
@@ -100,14 +89,15 @@ class Parallel:
             if done is None:
                 suspects += chunk
                 continue
-            self._learn(done)
+            for _, seconds in done.evaluations:
+                self._pace.learn(seconds)
             yield from ((evaluation, seconds, done.host) for evaluation, seconds in done.evaluations)
             if not done.too_long:
                 continue
             self._restart(done.worker)
             late, rest = chunk[len(done.evaluations)], chunk[len(done.evaluations) + 1 :]
             if late in slow:
-                yield _given_up(late, "timeout", "this candidate was not done after many times what the others took")
+                yield too_late(late)
             again = [chunk for chunk in (rest, () if late in slow else (late,)) if chunk]
             slow.add(late)
             waiting |= {self._submit(chunk, finished): chunk for chunk in again}
@@ -155,11 +145,6 @@ class Parallel:
             raise ClusterError(f"a worker cannot do its task ({type(error).__name__}: {error}); {_SAME}.")
         raise self._lost(error)
 
-    def _learn(self, done: Done) -> None:
-        """A running mean of the seconds of one evaluation."""
-        for _, seconds in done.evaluations:
-            self._seconds = seconds if self._seconds is None else 0.9 * self._seconds + 0.1 * seconds
-
     def _restart(self, worker: str) -> None:
         """End a worker in which a thread does not come back; one without a nanny goes on beside it."""
         with contextlib.suppress(OSError, ValueError, TimeoutError):
@@ -168,14 +153,13 @@ class Parallel:
     def _chunks(self, candidates: Sequence[Candidate]) -> Iterator[Chunked]:
         if not candidates:
             return
-        by_time = 1 if self._seconds is None else round(_TASK_SECONDS / max(self._seconds, 1e-6))
-        size = max(1, min(by_time, len(candidates) // (_CHUNKS_A_WORKER * max(1, self._workers()))))
+        share = len(candidates) // (_CHUNKS_A_WORKER * max(1, self._workers()))
+        size = max(1, min(self._pace.fitting(_TASK_SECONDS), share))
         for begin in range(0, len(candidates), size):
             yield tuple(candidates[begin : begin + size])
 
     def _submit(self, candidates: Chunked, finished: Queue[Any]) -> Any:
-        limit = self._patience.limit(self._seconds)
-        chunk = Chunk(self._digest, self._mode, self._needs, candidates, limit)
+        chunk = Chunk(self._digest, self._mode, self._needs, candidates, self._pace.limit)
         try:
             future = self._client.submit(evaluate_chunk, chunk, key=f"gaitsim-{uuid.uuid4()}", pure=False)
         except (OSError, RuntimeError) as error:
@@ -215,6 +199,3 @@ def _gathered(future: Any) -> Done:
         raise _ResultLost from error
     return done
 
-
-def _given_up(candidate: Candidate, status: str, reason: str) -> Found:
-    return Evaluation(candidate, Verdict(status, reason, None, {}, 0.0, 0)), 0.0, ""

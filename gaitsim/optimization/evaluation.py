@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from typing import Any
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
 
 from gaitsim.optimization.problem import hash_of
+
+_DIGEST = ', "digest": "'
+_DIGEST_AT_END = re.compile(_DIGEST.encode() + rb'[0-9a-f]{16}"}')
 
 
 @dataclass(frozen=True)
@@ -18,6 +25,11 @@ class Candidate:
     generation: int
     index: int
     x: tuple[float, ...]
+
+    @property
+    def name(self) -> str:
+        """As `--candidate` takes it: 12:4."""
+        return f"{self.generation}:{self.index}"
 
 
 @dataclass(frozen=True)
@@ -54,31 +66,73 @@ class Evaluation:
         return self.verdict.score is None
 
     def line(self) -> str:
-        """One line of JSON, the same for the same numbers."""
+        """One line of JSON, the same for the same numbers; its digest covers all that stands before it."""
         place = self.candidate
-        head: dict[str, Any] = {
-            "run": 0,
-            "generation": place.generation,
-            "index": place.index,
-            "hash": hash_of(place.x),
-            "x": list(place.x),
-        }
+        head: dict[str, Any] = {"run": 0, "generation": place.generation, "index": place.index, "x": list(place.x)}
         found = asdict(self.verdict)
         if not self.verdict.episodes:
             del found["episodes"]
-        return json.dumps(head | found, allow_nan=False)
+        text = json.dumps(head | found, allow_nan=False)[:-1]
+        return f'{text}{_DIGEST}{_digest(text.encode())}"}}'
 
 
-def evaluation_of(data: Mapping[str, Any]) -> Evaluation:
-    """The evaluation that a line of the journal holds. Errors: KeyError, TypeError."""
-    candidate = Candidate(int(data["generation"]), int(data["index"]), tuple(float(v) for v in data["x"]))
+_Count = Annotated[int, Field(ge=0, le=2**53)]
+
+
+class _Line(BaseModel):
+    """What a line holds, to the letter."""
+
+    model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
+
+    run: Literal[0]
+    generation: _Count
+    index: _Count
+    x: tuple[FiniteFloat, ...]
+    status: str
+    reason: str
+    score: FiniteFloat | None
+    metrics: dict[str, FiniteFloat | None]
+    simulated_seconds: FiniteFloat
+    steps: _Count
+    episodes: tuple[dict[str, Any], ...] = ()
+    digest: str | None = None
+    hash: str | None = None  # of journals begun before lines had a digest; it covers x only
+
+
+def evaluation_of(line: bytes) -> Evaluation:
+    """The evaluation that a line of the journal holds.
+
+    Raises:
+        ValueError: It is none, or not as it was written; the words say why.
+    """
+    try:
+        found = _Line.model_validate_json(line)
+    except ValidationError as error:
+        first = error.errors(include_url=False, include_input=False)[0]
+        place = ".".join(str(word) for word in first["loc"])
+        raise ValueError(f"{place + ': ' if place else ''}{first['msg'][0].lower()}{first['msg'][1:]}") from error
+    if found.hash is None:
+        text, _, _ = line.rpartition(_DIGEST.encode())
+        if line != text + f'{_DIGEST}{_digest(text)}"}}'.encode():
+            raise ValueError("it does not fit its digest")
+    elif found.hash != hash_of(found.x):
+        raise ValueError("its hash does not fit its vector")
     verdict = Verdict(
-        str(data["status"]),
-        str(data["reason"]),
-        None if data["score"] is None else float(data["score"]),
-        dict(data["metrics"]),
-        float(data["simulated_seconds"]),
-        int(data["steps"]),
-        tuple(dict(episode) for episode in data.get("episodes", ())),
+        found.status,
+        found.reason,
+        found.score,
+        found.metrics,
+        found.simulated_seconds,
+        found.steps,
+        found.episodes,
     )
-    return Evaluation(candidate, verdict)
+    return Evaluation(Candidate(found.generation, found.index, found.x), verdict)
+
+
+def is_whole(line: bytes) -> bool:
+    """Whether a line has a digest, which is its end; lines of old journals have none."""
+    return _DIGEST_AT_END.search(line) is not None
+
+
+def _digest(text: bytes) -> str:
+    return hashlib.sha256(text).hexdigest()[:16]

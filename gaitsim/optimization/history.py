@@ -68,12 +68,11 @@ class GenerationsFile:
 def parameters_csv(
     problem: Problem,
     best: Sequence[float] | None,
-    evaluations: Sequence[Evaluation],
+    last: Sequence[Evaluation],
 ) -> str:
     """Bounds, start, best, and where the better half of the last generation lies: each row in its own unit."""
     rows = [_row(("address", "unit", "low", "high", "start", "spread", "best", "mean", "std"))]
-    last = max((e.candidate.generation for e in evaluations), default=0)
-    scored = sorted((e for e in evaluations if e.candidate.generation == last and not e.failed), key=lambda e: e.cost)
+    scored = sorted((e for e in last if not e.failed), key=lambda e: e.cost)
     half = np.array([e.candidate.x for e in scored[: max(1, len(scored) // 2)]])
     for i, v in enumerate(problem.variables):
         found = math.nan if best is None else best[i]

@@ -2,22 +2,21 @@
 
 `evaluations.jsonl` holds whole generations in order, so histories can be compared byte for byte;
 `arriving.jsonl` the present generation in the order of arrival. After a crash both are read, and a
-torn last line is cut.
+torn last line is cut. No more than a generation is held in memory.
 """
 
 from __future__ import annotations
 
-import json
 import os
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import IO
 
 from gaitsim.errors import Fault, GaitsimError, Mark
-from gaitsim.optimization.evaluation import Candidate, Evaluation, evaluation_of
-from gaitsim.optimization.problem import hash_of
+from gaitsim.optimization.evaluation import Candidate, Evaluation, evaluation_of, is_whole
 
 _MOVE = "restore it from a copy, or start a new search with --from"
+_WHOLE, _ARRIVING = "evaluations.jsonl", "arriving.jsonl"
 
 
 class DamagedJournal(GaitsimError):
@@ -25,39 +24,42 @@ class DamagedJournal(GaitsimError):
 
 
 class Journal:
-    """The journal of one result folder, open for writing; it knows what it held before."""
+    """The journal of one result folder, open for writing; it gives back what it held before."""
 
     def __init__(self, folder: Path) -> None:
-        self._whole, self._arriving = folder / "evaluations.jsonl", folder / "arriving.jsonl"
-        whole = list(_read_whole(folder))
-        self._known = {_place(evaluation): evaluation for evaluation in [*whole, *read(self._arriving)]}
+        self._whole, self._arriving = folder / _WHOLE, folder / _ARRIVING
         # Whether the last generation is whole is known to the search only, so it arrives anew.
         # First it is safe there, then it is cut here: a crash between the two loses nothing.
-        last = max((e.candidate.generation for e in whole), default=0)
-        ordered = [e for e in self.evaluations if e.candidate.generation < last]
-        _replace(self._arriving, [e for e in self.evaluations if e.candidate.generation >= last])
-        _replace(self._whole, ordered)
-        self._written = ordered[-1].candidate.generation if ordered else -1
+        begin, self._written, last = _last_generation(self._whole)
+        later = [e for e in _read(self._arriving) if e.candidate.generation > self._written]
+        self._arrived = {_place(evaluation): evaluation for evaluation in [*last, *later]}
+        _replace(self._arriving, [self._arrived[place] for place in sorted(self._arrived)])
+        _cut(self._whole, begin)
+        self._before = _read(self._whole)
+        self._next = next(self._before, None)
         self._stream: IO[str] | None = None
 
-    @property
-    def evaluations(self) -> list[Evaluation]:
-        """All evaluations known, in the order of the search."""
-        return [self._known[place] for place in sorted(self._known)]
+    def known(self, candidates: Sequence[Candidate]) -> dict[int, Evaluation]:
+        """The evaluations of a generation's candidates that were made before, by index.
 
-    def known(self, candidate: Candidate) -> Evaluation | None:
-        """The evaluation of a candidate that was made before.
+        Generations are asked for in their order.
 
-        Errors: DamagedJournal if it was of another vector, or is gone.
+        Raises:
+            DamagedJournal: One was of another vector, or is gone.
         """
-        found = self._known.get((candidate.generation, candidate.index))
-        place = f"generation {candidate.generation}, candidate {candidate.index}"
-        if found is None and candidate.generation <= self._written:
-            rule = f"{place} is missing among later ones, so the file was edited or damaged"
-            raise DamagedJournal(Fault(f"{rule}; {_MOVE}.", Mark(str(self._whole))))
-        if found is not None and hash_of(found.candidate.x) != hash_of(candidate.x):
-            rule = f"{place} is not the vector that this search asks for, so it was edited or begun with other versions"
-            raise DamagedJournal(Fault(f"{rule}; {_MOVE}.", Mark(str(self._whole))))
+        generation = candidates[0].generation
+        found = {i: e for (number, i), e in self._arrived.items() if number == generation}
+        while self._next is not None and self._next.candidate.generation == generation:
+            found[self._next.candidate.index] = self._next
+            self._next = next(self._before, None)
+        for candidate in candidates:
+            place = f"generation {generation}, candidate {candidate.index}"
+            evaluation = found.get(candidate.index)
+            if evaluation is None and generation <= self._written:
+                raise self._damaged(f"{place} is missing among later ones, so the file was edited or damaged")
+            if evaluation is not None and evaluation.candidate != candidate:
+                rule = "is not the vector that this search asks for, so it was edited or begun with other versions"
+                raise self._damaged(f"{place} {rule}")
         return found
 
     def arrived(self, evaluation: Evaluation) -> None:
@@ -66,22 +68,21 @@ class Journal:
             self._stream = self._arriving.open("a", encoding="utf-8")
         self._stream.write(evaluation.line() + "\n")
         self._stream.flush()
-        self._known[_place(evaluation)] = evaluation
+        self._arrived[_place(evaluation)] = evaluation
 
-    def close_generation(self, generation: int, evaluations: list[Evaluation]) -> None:
+    def close_generation(self, evaluations: Sequence[Evaluation]) -> None:
         """Move a whole generation into the ordered journal, and make sure that it is on the disk."""
+        generation = evaluations[0].candidate.generation
         if generation <= self._written:
             return
         with self._whole.open("a", encoding="utf-8") as file:
-            file.writelines(evaluation.line() + "\n" for evaluation in evaluations)
-            file.flush()
-            os.fsync(file.fileno())
+            _write(file, evaluations)
         self._written = generation
         self.close()
         # After a crash, the generation after this one may have begun to arrive already.
-        later = [e for e in self.evaluations if e.candidate.generation > generation]
-        if later:
-            _replace(self._arriving, later)
+        self._arrived = {place: e for place, e in self._arrived.items() if place[0] > generation}
+        if self._arrived:
+            _replace(self._arriving, self._arrived.values())
         else:
             self._arriving.unlink(missing_ok=True)
 
@@ -90,59 +91,107 @@ class Journal:
             self._stream.close()
             self._stream = None
 
-
-def read(path: Path) -> Iterator[Evaluation]:
-    """The evaluations in a journal; a torn last line is passed over.
-
-    Errors: DamagedJournal with the line.
-    """
-    if not path.is_file():
-        return
-    text = path.read_text(encoding="utf-8", errors="replace")
-    lines = text.split("\n")
-    for number, line in enumerate(lines, start=1):
-        if not line:
-            continue
-        try:
-            data = json.loads(line)
-            evaluation = evaluation_of(data)
-            if hash_of(evaluation.candidate.x) != data["hash"]:
-                raise ValueError("its hash does not fit its vector")
-        except (ValueError, KeyError, TypeError, AttributeError) as error:
-            if number == len(lines):
-                return
-            rule = f"this line is no evaluation ({error}); the file was edited or damaged"
-            raise DamagedJournal(Fault(f"{rule}; {_MOVE}.", Mark(str(path), number))) from error
-        yield evaluation
+    def _damaged(self, rule: str) -> DamagedJournal:
+        return DamagedJournal(Fault(f"{rule}; {_MOVE}.", Mark(str(self._whole))))
 
 
 def evaluations_in(folder: Path) -> list[Evaluation]:
     """Everything that the journal of a folder holds, in the order of the search; changes nothing.
 
-    Errors: DamagedJournal.
+    Raises:
+        DamagedJournal: A line is not as it was written.
     """
-    found = [*_read_whole(folder), *read(folder / "arriving.jsonl")]
-    known = {_place(evaluation): evaluation for evaluation in found}
-    return [known[place] for place in sorted(known)]
+    found = {_place(evaluation): evaluation for evaluation in read(folder)}
+    return [found[place] for place in sorted(found)]
 
 
-def _read_whole(folder: Path) -> Iterator[Evaluation]:
+def read(folder: Path) -> Iterator[Evaluation]:
+    """The evaluations of a folder one by one: whole generations, then what has arrived of the present one.
+
+    Raises:
+        DamagedJournal: A line is not as it was written.
+    """
+    yield from _read(_made(folder / _WHOLE))
+    yield from _read(folder / _ARRIVING)
+
+
+def old_form_notices(folder: Path) -> list[str]:
+    """What must be said of a journal whose lines have a hash of their vector only; nothing of others."""
+    path = folder / _WHOLE
+    first = path.open("rb").readline() if path.is_file() else b""
+    if not first or is_whole(first):
+        return []
+    return [f"{path}: begun by an older gaitsim, so damage to its scores and metrics would not be noticed"]
+
+
+def _read(path: Path) -> Iterator[Evaluation]:
+    return (evaluation for _, evaluation in _placed(path))
+
+
+def _placed(path: Path) -> Iterator[tuple[int, Evaluation]]:
+    """Where in the file each line begins, and its evaluation; a torn last line is passed over.
+
+    Raises:
+        DamagedJournal: With the line.
+    """
+    if not path.is_file():
+        return
+    begin = 0
+    with path.open("rb") as file:
+        for number, line in enumerate(file, start=1):
+            text = line.removesuffix(b"\n")
+            try:
+                yield begin, evaluation_of(text)
+            except ValueError as error:
+                if _torn(line):
+                    return
+                rule = f"this line is no evaluation ({error}); the file was edited or damaged"
+                raise DamagedJournal(Fault(f"{rule}; {_MOVE}.", Mark(str(path), number))) from error
+            begin += len(line)
+
+
+def _torn(line: bytes) -> bool:
+    """Whether a line misses its end: a crash cut it, where damage would leave its digest or its newline."""
+    return not line.endswith(b"\n") and not is_whole(line)
+
+
+def _last_generation(path: Path) -> tuple[int, int, list[Evaluation]]:
+    """Of the ordered journal: where its last generation begins, which one is before that, and its evaluations."""
+    cut, before, last = 0, -1, list[Evaluation]()
+    for begin, evaluation in _placed(_made(path)):
+        if last and evaluation.candidate.generation != last[-1].candidate.generation:
+            cut, before, last = begin, last[-1].candidate.generation, []
+        last.append(evaluation)
+    return cut, before, last
+
+
+def _made(path: Path) -> Path:
     """The ordered journal, which is made with its folder: without it, a search would begin anew unasked."""
-    path = folder / "evaluations.jsonl"
     if not path.is_file():
         raise DamagedJournal(Fault(f"this journal is missing; {_MOVE}.", Mark(str(path))))
-    return read(path)
+    return path
 
 
 def _place(evaluation: Evaluation) -> tuple[int, int]:
     return evaluation.candidate.generation, evaluation.candidate.index
 
 
-def _replace(path: Path, evaluations: list[Evaluation]) -> None:
+def _replace(path: Path, evaluations: Iterable[Evaluation]) -> None:
     """Write a journal whole: what stood there stays until the new one is on the disk."""
     draft = path.with_name(f"{path.name}.partial")
     with draft.open("w", encoding="utf-8") as file:
-        file.writelines(evaluation.line() + "\n" for evaluation in evaluations)
-        file.flush()
-        os.fsync(file.fileno())
+        _write(file, evaluations)
     draft.replace(path)
+
+
+def _cut(path: Path, size: int) -> None:
+    """Leave the beginning of a file, and make sure that this is on the disk."""
+    with path.open("r+b") as file:
+        file.truncate(size)
+        os.fsync(file.fileno())
+
+
+def _write(file: IO[str], evaluations: Iterable[Evaluation]) -> None:
+    file.writelines(evaluation.line() + "\n" for evaluation in evaluations)
+    file.flush()
+    os.fsync(file.fileno())

@@ -9,13 +9,17 @@ from typing import Protocol
 
 from gaitsim.optimization.algorithms import Algorithm
 from gaitsim.optimization.evaluation import Candidate, Evaluation
-from gaitsim.optimization.history import Generation, GenerationsFile, generation_of
+from gaitsim.optimization.failures import Failures
+from gaitsim.optimization.history import GenerationsFile, generation_of
 from gaitsim.optimization.journal import Journal
 from gaitsim.optimization.problem import Problem
 
 
 class Evaluator(Protocol):
-    """Evaluates candidates, in any order, and says how long each took and where."""
+    """Evaluates candidates, in any order, and says how long each took and where.
+
+    Workers begin when it is called; what the caller does before it asks for the first is done meanwhile.
+    """
 
     def __call__(self, candidates: Sequence[Candidate]) -> Iterator[tuple[Evaluation, float, str]]: ...
 
@@ -34,15 +38,21 @@ class Budget:
 
 @dataclass
 class Progress:
-    """Where a search stands."""
+    """Where a search stands.
+
+    began: the generation that the first new evaluation was of; what came before was in the journal.
+    last: the evaluations of the last whole generation.
+    """
 
     generation: int = 0
     evaluations: int = 0
     evaluated_now: int = 0
+    began: int = 0
     failed: int = 0
+    failures: Failures = field(default_factory=Failures)
     best: Evaluation | None = None
+    last: Sequence[Evaluation] = ()
     stop: str = ""
-    generations: list[Generation] = field(default_factory=list)
 
 
 class Search:
@@ -78,33 +88,44 @@ class Search:
             evaluations = self._evaluated(progress.generation + 1, values)
             self.algorithm.tell(vectors, [e.cost for e in evaluations])
             progress.stop = self.algorithm.stop() or ""
+        self._close_last()
         return progress
 
     def _evaluated(self, generation: int, values: Iterable[tuple[float, ...]]) -> list[Evaluation]:
         """All evaluations of one generation, in order: from the journal, or made now."""
         candidates = [Candidate(generation, i, x) for i, x in enumerate(values)]
-        found = {c.index: known for c in candidates if (known := self.journal.known(c)) is not None}
-        for evaluation, seconds, where in self.evaluator([c for c in candidates if c.index not in found]):
+        found = self.journal.known(candidates)
+        new = self.evaluator([c for c in candidates if c.index not in found])
+        self._close_last()  # while the workers are at this one
+        for evaluation, seconds, where in new:
             self.journal.arrived(evaluation)
             self.took(evaluation.candidate, seconds, where)
             found[evaluation.candidate.index] = evaluation
-            self.progress.evaluated_now += 1
-            self.watch(self.progress)
+            self._count_one(generation)
         evaluations = [found[c.index] for c in candidates]
-        self.journal.close_generation(generation, evaluations)
         self._count(generation, evaluations)
         return evaluations
 
+    def _close_last(self) -> None:
+        if self.progress.last:
+            self.journal.close_generation(self.progress.last)
+
+    def _count_one(self, generation: int) -> None:
+        progress = self.progress
+        progress.began = progress.began if progress.evaluated_now else generation
+        progress.evaluated_now += 1
+        self.watch(progress)
+
     def _count(self, generation: int, evaluations: list[Evaluation]) -> None:
         progress = self.progress
-        progress.generation = generation
+        progress.generation, progress.last = generation, evaluations
         progress.evaluations += len(evaluations)
-        progress.failed += sum(e.failed for e in evaluations)
         for evaluation in evaluations:
+            if evaluation.failed:
+                progress.failed += 1
+                progress.failures.add(evaluation)
             if progress.best is None or evaluation.cost < progress.best.cost:
                 progress.best = evaluation
         best = progress.best.cost if progress.best else math.inf
-        summary = generation_of(generation, progress.evaluations, best, evaluations)
-        progress.generations.append(summary)
-        self.file.add(summary)
+        self.file.add(generation_of(generation, progress.evaluations, best, evaluations))
         self.watch(progress)

@@ -67,10 +67,30 @@ class Lock:
             aside.unlink()
 
     def _age(self) -> float:
-        try:
-            return time.time() - self._path.stat().st_mtime
-        except OSError:
-            return math.inf
+        return _age(self._path)
+
+
+def state_of(folder: Path, status: str) -> str:
+    """What a result's status is by now: who died while it was `running` could not write another.
+
+    On another machine's word alone a process runs: from here that cannot be seen.
+    """
+    if status != "running":
+        return status
+    path = folder / "lock"
+    holder = _holder(path)
+    if not holder:
+        return "running" if _age(path) < _WRITING else "interrupted"
+    host, process = holder.get("host"), holder.get("process")
+    here = host in (None, socket.gethostname())
+    return "interrupted" if here and not (isinstance(process, int) and _alive(process)) else "running"
+
+
+def _age(path: Path) -> float:
+    try:
+        return time.time() - path.stat().st_mtime
+    except OSError:
+        return math.inf
 
 
 def _holder(path: Path) -> dict[str, Any]:

@@ -9,6 +9,7 @@ from typing import Any
 
 from gaitsim.errors import Fault, GaitsimError, Mark
 from gaitsim.results.bundle import Bundle, read_bundle
+from gaitsim.results.lock import state_of
 from gaitsim.results.provenance import provenance
 
 _NAME = "manifest.json"
@@ -70,7 +71,8 @@ def read_manifest(folder: Path) -> dict[str, Any]:
     try:
         manifest = json.loads(path.read_text(encoding="utf-8"))
         name, digest = str(manifest["name"]), str(manifest["digest"])
-        manifest["kind"], manifest["status"]
+        manifest["kind"]
+        manifest["status"] = state_of(folder, manifest["status"])
     except (OSError, ValueError, KeyError, TypeError) as error:
         rule = f"this manifest cannot be read ({error}); restore it from a copy."
         raise BadResult(Fault(rule, Mark(str(path)))) from error

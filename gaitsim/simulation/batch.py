@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
-from concurrent.futures import ThreadPoolExecutor
 
 from gaitsim.model import Model
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode, Simulator
+from gaitsim.simulation.waiting import cores, in_threads
 
 
 def run_all(
@@ -24,5 +23,4 @@ def run_all(
         simulators.append(Simulator(model, mode))
         if prepared:
             prepared(simulators[-1])
-    with ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
-        yield from pool.map(lambda simulator: simulator.run(), simulators)
+    return in_threads([simulator.run for simulator in simulators], cores())

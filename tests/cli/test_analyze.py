@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from optimization.searches import signed
 
 import gaitsim
 from gaitsim.errors import GaitsimError
@@ -306,9 +307,9 @@ def test_a_search_that_has_not_ended(tuned: Path, run: Run) -> None:
 
 def test_a_candidate_that_a_search_had_to_end(tuned: Path, run: Run) -> None:
     path = tuned / "evaluations.jsonl"
-    first, *rest = path.read_text().splitlines()
-    ended = json.loads(first) | {"status": "timeout", "reason": "no answer in 5 s", "score": None, "metrics": {}}
-    path.write_text("\n".join([json.dumps(ended), *rest]) + "\n")
+    first, *rest = path.read_text().splitlines(keepends=True)
+    ended = signed(first, status="timeout", reason="no answer in 5 s", score=None, metrics={})
+    path.write_text("".join([ended, *rest]))
     said = run("analyze", str(tuned), "--only", "--plot", "pivot.angle", "--candidate", "0:0")
     rule = "which the search had to end (no answer in 5 s); Ctrl-C ends it here"
     assert (said.code, said.err) == (0, f"candidate 0:0 of {tuned}, {rule}\n")

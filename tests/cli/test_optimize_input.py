@@ -395,6 +395,21 @@ main(sys.argv[1:])
 """
 
 
+def test_a_smoke_search_is_not_the_one_to_resume(begun: Path, study: Study, command: Any) -> None:
+    assert command("optimize", "spec.yaml", "--smoke", *SMALL[:4]).code == 0
+    ended = command("optimize", "spec.yaml", "--resume", *SMALL[:4])
+    assert ended.code == 0, ended.err
+    assert f"resuming {begun}\n" in ended.err
+    (smoke,) = (path for path in study.results if path.name != begun.name)
+    shutil.rmtree(begun)
+    ended = command("optimize", "spec.yaml", "--resume", *SMALL[:4])
+    name = f"results/{smoke.name}"
+    rule = "results: there is no search of spec.yaml to resume but one by --smoke"
+    assert (ended.code, ended.err) == (3, f"{rule}; name it to continue it: gaitsim optimize {name} --resume\n")
+    ended = command("optimize", name, "--resume", "--workers", "0", "--generations", "3")
+    assert ended.code == 0, ended.err
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("workers", ["0", "1"])
 def test_a_full_disk_during_a_search_loses_nothing(study: Study, workers: str, tmp_path: Path) -> None:
@@ -411,6 +426,7 @@ def test_a_full_disk_during_a_search_loses_nothing(study: Study, workers: str, t
     words = again.split()[1:]
     made = study.timed()
     assert len(made) > 10
+    assert study.listed() == "interrupted"
     assert study.run(*words).code == 0
     assert len(study.timed()) == len(set(study.timed())) > len(made)
     other = Study(tmp_path / "other")

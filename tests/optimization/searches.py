@@ -1,8 +1,10 @@
-"""A small search in a folder of its own, run as a researcher would: by the command, in processes."""
+"""A small search in a folder of its own, run as a researcher would: by the command."""
 
 from __future__ import annotations
 
 import contextlib
+import hashlib
+import io
 import json
 import os
 import subprocess
@@ -11,6 +13,11 @@ import time
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
+from unittest import mock
+
+import pytest
+
+from gaitsim.cli.main import main
 
 GAITSIM = str(Path(sys.executable).with_name("gaitsim"))
 SPEC = """\
@@ -75,6 +82,14 @@ TRAPS = {
 }
 
 
+def signed(line: str, **changes: Any) -> str:
+    """A line of a journal with other content, and a digest that fits."""
+    data = json.loads(line) | changes
+    del data["digest"]
+    text = json.dumps(data)[:-1]
+    return f'{text}, "digest": "{hashlib.sha256(text.encode()).hexdigest()[:16]}"}}\n'
+
+
 @dataclass
 class Ended:
     """How a command ended."""
@@ -107,14 +122,29 @@ class Study:
         pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "stdin": subprocess.PIPE, "text": True}
         return subprocess.Popen([GAITSIM, *words], cwd=self.folder, env=self.environment, **(pipes | options))
 
-    def run(self, *words: str, said: str | None = None, seconds: float = 120) -> Ended:
+    def run(self, *words: str) -> Ended:
+        """A command in this process, as if it were begun in the folder: most tests need no other."""
+        out, err = io.StringIO(), io.StringIO()
+        with (
+            contextlib.chdir(self.folder),
+            mock.patch.dict(os.environ, self.environment),
+            contextlib.redirect_stdout(out),
+            contextlib.redirect_stderr(err),
+            pytest.raises(SystemExit) as ended,
+        ):
+            main(list(words))
+        assert "Traceback" not in err.getvalue(), err.getvalue()
+        return Ended(int(ended.value.code or 0), out.getvalue(), err.getvalue())
+
+    def run_apart(self, *words: str, said: str | None = None, seconds: float = 120) -> Ended:
+        """A command in a process of its own."""
         process = self.start(*words)
         out, err = process.communicate(said, timeout=seconds)
         assert "Traceback" not in err, err
         return Ended(process.returncode, out, err)
 
-    def optimize(self, *words: str, seconds: float = 120) -> Ended:
-        return self.run("optimize", "spec.yaml", *words, seconds=seconds)
+    def optimize(self, *words: str) -> Ended:
+        return self.run("optimize", "spec.yaml", *words)
 
     @property
     def results(self) -> list[Path]:
@@ -134,6 +164,20 @@ class Study:
 
     def manifest(self) -> Any:
         return json.loads((self.result / "manifest.json").read_text())
+
+    def listed(self) -> str:
+        """The state of the only result, as `results list` says it."""
+        (row,) = self.run("results", "list", "--json").data["results"]
+        return str(row["status"])
+
+    def wait_to_run(self, process: subprocess.Popen[str], seconds: float = 60) -> None:
+        """Until a search that gives nothing is about to evaluate its first candidate."""
+        end = time.monotonic() + seconds
+        while not any((folder / "timings.csv").exists() for folder in self.results):
+            assert process.poll() is None, process.communicate()
+            assert time.monotonic() < end, "no beginning"
+            time.sleep(0.01)
+        time.sleep(0.2)
 
     def timed(self) -> list[tuple[str, ...]]:
         """Generation and index of every evaluation that was made, in any session."""

@@ -6,6 +6,8 @@ import builtins
 import json
 import math
 import os
+import random
+import struct
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -14,12 +16,14 @@ import pytest
 
 from gaitsim.errors import GaitsimError
 from gaitsim.optimization.algorithms import CmaEs
-from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
+from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict, evaluation_of
 from gaitsim.optimization.history import GenerationsFile
-from gaitsim.optimization.journal import DamagedJournal, Journal, evaluations_in
-from gaitsim.optimization.problem import Problem, Variable
+from gaitsim.optimization.journal import DamagedJournal, Journal, evaluations_in, old_form_notices
+from gaitsim.optimization.problem import Problem, Variable, hash_of
 from gaitsim.optimization.search import Budget, Search
 from gaitsim.units import parse_unit
+
+from .searches import signed
 
 PROBLEM = Problem(tuple(Variable(f"x{i}", parse_unit("1"), -2.0, 3.0, 1.0, 0.5) for i in range(3)))
 Found = tuple[Evaluation, float, str]
@@ -135,11 +139,11 @@ def test_a_torn_line_costs_that_line_only(tmp_path: Path, undisturbed: dict[str,
         folder.mkdir()
         for other, content in before.items():
             (folder / other).write_bytes(content[:cut] if other == name else content)
-        known = {json.loads(line)["hash"] for line in text[:cut].split(b"\n")[:-1]}
-        assert known <= {json.loads(e.line())["hash"] for e in evaluations_in(folder)}
-        journal = Journal(folder)
-        assert known <= {json.loads(e.line())["hash"] for e in journal.evaluations}
-        journal.close()
+        known = {line.decode() for line in text[:cut].split(b"\n")[:-1]}
+        assert known <= {e.line() for e in evaluations_in(folder)}
+        if cut % 8 == 0 or cut > len(text) - 3:
+            Journal(folder).close()
+            assert known <= {e.line() for e in evaluations_in(folder)}
         if cut % 40 == 0 or cut > len(text) - 3:
             search(folder, Evaluate())
             assert files(folder) == undisturbed
@@ -209,49 +213,129 @@ def test_a_crash_between_any_two_file_operations_loses_nothing(
         assert files(folder) == undisturbed
 
 
-def edited(folder: Path, line: int, change: Callable[[dict[str, Any]], Any]) -> None:
+def edited(folder: Path, line: int, change: Callable[[str], str]) -> None:
     path = folder / "evaluations.jsonl"
-    lines = path.read_text().splitlines()
-    lines[line - 1] = change(json.loads(lines[line - 1]))
-    path.write_text("\n".join(lines) + "\n")
+    lines = path.read_text().splitlines(keepends=True)
+    lines[line - 1] = change(lines[line - 1])
+    path.write_text("".join(lines))
+
+
+def aged(line: str, **changes: Any) -> str:
+    """A line as gaitsim wrote it before it had a digest."""
+    data = json.loads(line) | changes
+    del data["digest"]
+    x = data.pop("x")
+    head = {name: data.pop(name) for name in ("run", "generation", "index")}
+    return json.dumps(head | {"hash": hash_of(x), "x": x} | data) + "\n"
+
+
+DEEP: dict[str, Any] = {}
+for _ in range(900):
+    DEEP = {"a": DEEP}
 
 
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        (lambda data: json.dumps(data | {"x": [0.0, 0.0, 0.0]}), "its hash does not fit its vector"),
-        (lambda data: json.dumps(data)[:-9], "this line is no evaluation"),
-        (lambda data: "", "is missing among later ones"),
-        (lambda data: "[]", "this line is no evaluation"),
-        (lambda data: json.dumps(data | {"score": "good"}), "this line is no evaluation"),
-        (lambda data: json.dumps({k: v for k, v in data.items() if k != "metrics"}), "this line is no evaluation"),
+        (lambda line: line.replace('"score": ', '"score": 1'), "it does not fit its digest"),
+        (lambda line: line.replace(', "index"', ',  "index"'), "it does not fit its digest"),
+        (lambda line: line.replace('"digest": "', '"digest": "0'), "it does not fit its digest"),
+        (lambda line: line[:-9] + "\n", "invalid JSON: EOF while parsing a string at line 1 column"),
+        (lambda line: "\n", "invalid JSON: EOF while parsing a value at line 1 column 0"),
+        (lambda line: "[]\n", "input should be an object"),
+        (lambda line: signed(line, score="good"), "score: input should be a valid number"),
+        (lambda line: signed(line, score=math.nan), "score: input should be a finite number"),
+        (lambda line: signed(line, x=[math.inf]), "x.0: input should be a finite number"),
+        (lambda line: signed(line, score=10**400), "score: input should be a finite number"),
+        (lambda line: signed(line, steps=10**30), "steps: input should be less than or equal to 9007199254740992"),
+        (lambda line: line.replace('"index": ', '"index": 1' + 5000 * "0"), "invalid JSON: number out of range"),
+        (lambda line: signed(line, index=-1), "index: input should be greater than or equal to 0"),
+        (lambda line: signed(line, generation=1.5), "generation: input should be a valid integer"),
+        (lambda line: signed(line, metrics=DEEP), "invalid JSON: recursion limit exceeded at line 1 column"),
+        (lambda line: signed(line, mood="good"), "mood: extra inputs are not permitted"),
+        (lambda line: aged(line, score=math.nan), "score: input should be a finite number"),
+        (lambda line: aged(line).replace('"x": [', '"x": [1'), "its hash does not fit its vector"),
     ],
 )
 def test_an_edited_line_is_named(tmp_path: Path, change: Any, words: str) -> None:
     half_way(tmp_path)
     edited(tmp_path, 4, change)
-    with pytest.raises(DamagedJournal) as told:
-        search(tmp_path, Evaluate())
-    line = "" if "missing" in words else ":4"
-    assert str(told.value).startswith(f"{tmp_path / 'evaluations.jsonl'}{line}: ")
-    assert words in str(told.value)
+    for use in (lambda: search(tmp_path, Evaluate()), lambda: evaluations_in(tmp_path)):
+        with pytest.raises(DamagedJournal) as told:
+            use()
+        said = str(told.value)
+        assert said.startswith(f"{tmp_path / 'evaluations.jsonl'}:4: this line is no evaluation ({words}")
+        rule = "); the file was edited or damaged"
+        assert said.endswith(f"{rule}; restore it from a copy, or start a new search with --from.")
 
 
-def test_an_edited_vector_with_its_hash_mended_is_noticed(tmp_path: Path) -> None:
-    from gaitsim.optimization.problem import hash_of
-
-    x = [0.5, 0.5, 0.5]
+def test_every_flipped_bit_of_a_line_is_noticed(tmp_path: Path) -> None:
     half_way(tmp_path)
-    edited(tmp_path, 4, lambda data: json.dumps(data | {"x": x, "hash": hash_of(x)}))
+    line = (tmp_path / "evaluations.jsonl").read_bytes().splitlines()[3]
+    for place in range(len(line)):
+        for bit in range(8):
+            flipped = bytearray(line)
+            flipped[place] ^= 1 << bit
+            with pytest.raises(ValueError):
+                evaluation_of(bytes(flipped))
+
+
+@pytest.mark.parametrize("name", ["evaluations.jsonl", "arriving.jsonl"])
+def test_every_flipped_bit_of_a_newline_is_noticed(tmp_path: Path, name: str) -> None:
+    text = half_way(tmp_path)[name]
+    for place in (i for i, byte in enumerate(text) if byte == ord("\n")):
+        for bit in range(8):
+            flipped = bytearray(text)
+            flipped[place] ^= 1 << bit
+            (tmp_path / name).write_bytes(flipped)
+            with pytest.raises(DamagedJournal):
+                evaluations_in(tmp_path)
+
+
+def test_a_missing_line_is_noticed(tmp_path: Path) -> None:
+    half_way(tmp_path)
+    edited(tmp_path, 4, lambda line: "")
+    with pytest.raises(DamagedJournal, match="generation 1, candidate 2 is missing among later ones"):
+        search(tmp_path, Evaluate())
+
+
+def test_a_vector_of_another_search_is_noticed(tmp_path: Path) -> None:
+    half_way(tmp_path)
+    edited(tmp_path, 4, lambda line: signed(line, x=[0.5, 0.5, 0.5]))
     with pytest.raises(DamagedJournal, match="generation 1, candidate 2 is not the vector that this search asks for"):
         search(tmp_path, Evaluate())
 
 
-def test_an_edited_score_is_noticed_by_what_follows(tmp_path: Path) -> None:
+def test_a_score_of_another_search_is_noticed_by_what_follows(tmp_path: Path) -> None:
     half_way(tmp_path)
-    edited(tmp_path, 2, lambda data: json.dumps(data | {"score": -100.0}))
+    edited(tmp_path, 2, lambda line: signed(line, score=-100.0))
     with pytest.raises(DamagedJournal, match="generation 2, candidate 0 is not the vector"):
         search(tmp_path, Evaluate())
+
+
+def test_a_journal_of_old_form_goes_on_and_says_what_it_cannot_notice(
+    tmp_path: Path, undisturbed: dict[str, bytes]
+) -> None:
+    half_way(tmp_path)
+    assert old_form_notices(tmp_path) == []
+    for name in ("evaluations.jsonl", "arriving.jsonl"):
+        path = tmp_path / name
+        path.write_text("".join(aged(line) for line in path.read_text().splitlines()))
+    place = tmp_path / "evaluations.jsonl"
+    rule = "begun by an older gaitsim, so damage to its scores and metrics would not be noticed"
+    assert old_form_notices(tmp_path) == [f"{place}: {rule}"]
+    search(tmp_path, Evaluate())
+    assert [e.line().encode() for e in evaluations_in(tmp_path)] == undisturbed["evaluations.jsonl"].splitlines()
+    assert b'"hash"' in place.read_bytes().splitlines()[3]  # what was whole stays as it was written
+
+
+def test_numbers_come_back_to_the_last_bit() -> None:
+    chance = random.Random(1)
+    found = [struct.unpack("<d", chance.randbytes(8))[0] for _ in range(3000)]
+    numbers = tuple(v for v in found if math.isfinite(v))
+    verdict = Verdict("completed", "ä \\ \"", numbers[0], {"a": numbers[1], "b": None}, 1.0, 10)
+    evaluation = Evaluation(Candidate(1, 2, numbers), verdict)
+    assert evaluation_of(evaluation.line().encode()) == evaluation
 
 
 def test_a_missing_journal_is_no_new_search(tmp_path: Path) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from optimization.searches import Ended, Study
+from optimization.searches import Ended, Study, signed
 
 from gaitsim.cli.main import main
 
@@ -66,10 +66,11 @@ def test_a_run_of_a_candidate_is_a_result_that_verifies(begun: Path, command: An
 
 def test_verify_notices_a_changed_number(begun: Path, command: Any) -> None:
     assert command("results", "verify", str(begun), "--all", "--json").data["status"] == "reproduced"
-    lines = journal(begun)
-    lines[3]["metrics"]["angle"] += 1e-16 * 2
-    lines[5]["score"] = 0.0
-    (begun / "evaluations.jsonl").write_text("".join(json.dumps(line) + "\n" for line in lines))
+    path = begun / "evaluations.jsonl"
+    lines = path.read_text().splitlines(keepends=True)
+    lines[3] = signed(lines[3], metrics={"angle": json.loads(lines[3])["metrics"]["angle"] + 1e-16 * 2})
+    lines[5] = signed(lines[5], score=0.0)
+    path.write_text("".join(lines))
     ended = command("results", "verify", str(begun), "--all", "--json")
     assert (ended.code, ended.data["status"]) == (4, "differs")
     differing = {check["candidate"]: check["differs"] for check in ended.data["checked"] if check["differs"]}
@@ -189,7 +190,7 @@ def test_a_debugger_stops_in_a_component(study: Study) -> None:
     words = ("optimize", "spec.yaml", *DEBUG, "--set", "parts.trap.use=trap/stops")
     start = ("--set", "trap.level={value: 0.9, tune: [0.8, 1], spread: 0.01}")
     typed = ["p 'level', float(p.level)", "w", "import sys", "sys.breakpointhook = int", "continue"]
-    ended = study.run(*words, *start, said="\n".join([*typed, ""]))
+    ended = study.run_apart(*words, *start, said="\n".join([*typed, ""]))
     assert "components/trap/stops.py(27)update()" in ended.out
     assert "('level', 0.9)" in ended.out
     assert ended.code == 0, ended.err
@@ -198,7 +199,7 @@ def test_a_debugger_stops_in_a_component(study: Study) -> None:
 
 def test_normal_mode_warns(study: Study) -> None:
     start = ("--set", "trap.level={value: 0.9, tune: [0.8, 1], spread: 0.01}")
-    ended = study.run("optimize", "spec.yaml", *DEBUG, "--set", "parts.trap.use=trap/warns", *start)
+    ended = study.run_apart("optimize", "spec.yaml", *DEBUG, "--set", "parts.trap.use=trap/warns", *start)
     assert "components/trap/warns.py:27: RuntimeWarning: divide by zero" in ended.err
 
 

@@ -1,0 +1,43 @@
+"""Ctrl-C, and SIGTERM, which job queues send: the first ends a command in order, the next one at once."""
+
+from __future__ import annotations
+
+import os
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+from gaitsim.errors import ExitCode
+
+_HEARD = (signal.SIGINT, signal.SIGTERM)
+
+
+@contextmanager
+def heard_once() -> Iterator[None]:
+    """Within, the first of these signals is a KeyboardInterrupt; the next ends this process without a word.
+
+    What is ignored stays so, as of a command that a shell runs in the background.
+    """
+    if threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    heard = False
+
+    def hear(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 (as signal calls it)
+        nonlocal heard
+        if heard:
+            os._exit(ExitCode.INTERRUPTED)
+        heard = True
+        raise KeyboardInterrupt
+
+    before = {number: signal.getsignal(number) for number in _HEARD}
+    for number, handler in before.items():
+        if handler is not signal.SIG_IGN:
+            signal.signal(number, hear)
+    try:
+        yield
+    finally:
+        for number, handler in before.items():
+            signal.signal(number, handler)

@@ -1,0 +1,11 @@
+"""What is said when there is no one to evaluate candidates."""
+
+from __future__ import annotations
+
+from gaitsim.errors import ExitCode, GaitsimError
+
+
+class ClusterError(GaitsimError):
+    """The workers cannot be reached, or are lost."""
+
+    exit_code = ExitCode.CLUSTER
