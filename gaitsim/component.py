@@ -144,10 +144,15 @@ class State:
 
 @dataclass(frozen=True)
 class Metric:
-    """A number that a measure reports after the run. One named `value` bears the measure's own name."""
+    """A number that a measure reports after the run. One named `value` bears the measure's own name.
+
+    unit: `*` for that of the signal that is measured. like: the series whose unit it has instead, if it is one
+    of the same quantity: then both are in deg, although a joint's angle is in rad.
+    """
 
     unit: str
     doc: str
+    like: str = ""
 
 
 @dataclass(frozen=True)

@@ -66,11 +66,12 @@ class Place:
 
 @dataclass(frozen=True)
 class Recording:
-    """The numbers of a series in SI, the column that they come from, and who recorded it."""
+    """The numbers of a series in SI, the column that they come from, who recorded it, and the unit of its text."""
 
     values: tuple[float, ...]
     column: str = ""
     source: str = ""
+    unit: str = "1"
 
 
 @dataclass(frozen=True)
@@ -224,7 +225,7 @@ def headline_metrics(names: Collection[str]) -> list[str]:
 
 
 def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> dict[str, str]:
-    """Every metric and its unit; one left open is that of the signal that is measured."""
+    """Every metric and its unit; one left open is that of the signal that is measured, or of the series it is like."""
     units = {f"{p.address}.{n}": o.unit for p in parts for n, o in p.type.outputs.items()}
     measured = {
         c.target.rpartition(".")[0]: units[c.source]
@@ -234,9 +235,15 @@ def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> di
     found = {}
     for part in parts:
         for own, name in metric_names(part).items():
-            unit = part.type.metrics[own].unit
-            found[name] = measured.get(part.address, unit) if unit == "*" else unit
+            declared = part.type.metrics[own]
+            unit = measured.get(part.address, "*") if declared.unit == "*" else declared.unit
+            found[name] = _like(part.series[declared.like].unit, unit) if declared.like in part.series else unit
     return found
+
+
+def _like(unit: str, other: str) -> str:
+    """A unit, if it is one of the other's quantity; else the other."""
+    return unit if other == "*" or parse_unit(unit).dimension == parse_unit(other).dimension else other
 
 
 def recorded_signals(model: Model) -> tuple[Signal, ...]:

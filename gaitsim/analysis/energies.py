@@ -15,6 +15,7 @@ from gaitsim.analysis.path_work import created_power
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import GREY, PALETTE, above, labelled, panels
 from gaitsim.model import Part
+from gaitsim.units import parse_unit
 
 _CYCLES = 6  # more cannot be told apart
 _LEAST = 1e-9  # J; less is not worth a colour
@@ -102,7 +103,7 @@ def _of_joint(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, 
     signal, velocity = replay.trajectory, replay.trajectory[f"{own}.{rates[0]}"]
     held: dict[str, Floats] = {}
     given: dict[str, Floats] = {}
-    drives = [name for name, port in part.type.inputs.items() if port.unit in ("N", "N m")]
+    drives = [name for name, port in part.type.inputs.items() if parse_unit(port.unit).si in ("N", "N m")]
     for drive in drives:
         kinds = {p.address: p.type.kind for p in replay.model.parts}
         senders = [c.source for c in replay.model.connections if c.target == f"{own}.{drive}"]

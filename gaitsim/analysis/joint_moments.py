@@ -8,6 +8,7 @@ from gaitsim.analysis.cycles import Floats, arriving
 from gaitsim.analysis.legs import Leg, side_of
 from gaitsim.analysis.replay import Replay
 from gaitsim.model import Model, Part
+from gaitsim.units import parse_unit
 
 STOPS = ("stop_moment", "stop")
 
@@ -46,24 +47,24 @@ def joint_work(replay: Replay, leg: Leg, joint: str) -> tuple[Floats, Floats] | 
 def hidden_paths(model: Model, side: str) -> list[str]:
     """Paths of a side that tell no moment: MuJoCo's own tendons pull the bodies."""
     paths = [p for p in model.parts if p.type.kind == "path" and side_of(p.address) == side]
-    told = [p.address for p in paths if any(output.unit == "N m" for output in p.type.outputs.values())]
+    told = [p.address for p in paths if any(parse_unit(output.unit).si == "N m" for output in p.type.outputs.values())]
     return [p.address for p in paths if not any(t == p.address or t.startswith(f"{p.address}.") for t in told)]
 
 
 def _joint(model: Model, address: str) -> Part | None:
     """A hinge: a joint with one moment and one angular velocity, that slides nowhere."""
     part = next((p for p in model.parts if p.address == address and p.type.kind == "joint"), None)
-    if part is None or any(output.unit == "m" for output in part.type.outputs.values()):
+    if part is None or any(parse_unit(output.unit).si == "m" for output in part.type.outputs.values()):
         return None
     return part if len(_moments(part)) == 1 and len(_velocities(part)) == 1 else None
 
 
 def _moments(part: Part) -> list[str]:
-    return [name for name, port in part.type.inputs.items() if port.unit == "N m"]
+    return [name for name, port in part.type.inputs.items() if parse_unit(port.unit).si == "N m"]
 
 
 def _velocities(part: Part) -> list[str]:
-    return [name for name, port in part.type.outputs.items() if port.unit == "rad/s"]
+    return [name for name, port in part.type.outputs.items() if parse_unit(port.unit).si == "rad/s"]
 
 
 def _velocity(replay: Replay, part: Part) -> Floats:

@@ -11,12 +11,13 @@ from gaitsim.analysis.drawing import Drawing
 from gaitsim.analysis.legs import on_side, side_of
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import above, labelled, panels, quantity
+from gaitsim.units import parse_unit
 
 _LINES, _PANELS = 4, 4  # in a panel, in a figure
 _MANY = 32  # signals of controllers; of more, --plot draws those that are asked for
 _SHOWN = {"rad": ("deg", np.degrees(1.0)), "rad/s": ("deg/s", np.degrees(1.0))}
 
-Signals = Sequence[tuple[str, str]]  # address and unit
+Signals = Sequence[tuple[str, str]]  # address, and unit of what was recorded
 
 
 def motion_figures(replay: Replay) -> list[Drawing]:
@@ -33,7 +34,7 @@ def motion_figures(replay: Replay) -> list[Drawing]:
 def _outputs(replay: Replay, kind: str, names: Sequence[str]) -> Signals:
     """The outputs of parts of a kind: of these names, or all."""
     return [
-        (f"{part.address}.{name}", output.unit)
+        (f"{part.address}.{name}", parse_unit(output.unit).si)
         for part in replay.model.parts
         if part.type.kind == kind
         for name, output in part.type.outputs.items()

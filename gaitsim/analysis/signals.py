@@ -8,6 +8,7 @@ from fnmatch import fnmatchcase
 
 from gaitsim.errors import ExitCode, GaitsimError
 from gaitsim.model import Model, Signal, recorded_signals
+from gaitsim.units import parse_unit
 
 _WILD = frozenset("*?[")
 _SHOWN = 5
@@ -46,9 +47,9 @@ def matching(model: Model, text: str, arriving: bool = False) -> list[Signal]:
 
 
 def _inputs(model: Model) -> tuple[Signal, ...]:
-    """What arrives at the inputs of parts; a measure's are what others send."""
+    """What arrives at the inputs of parts, in SI; a measure's are what others send."""
     return tuple(
-        Signal(f"{part.address}.{name}", port.unit, port.doc)
+        Signal(f"{part.address}.{name}", parse_unit(port.unit).si, port.doc)
         for part in model.parts
         if not part.measure
         for name, port in part.type.inputs.items()

@@ -62,6 +62,7 @@ _FIELDS: dict[str, tuple[Any, str]] = {
     "levels": (_texts, 'names in brackets, such as ("swing", "stance")'),
     "choices": (lambda v: _texts(v) and bool(v), 'words in brackets, such as ("first", "second")'),
     "value": (lambda v: _number(v) and v > 0, "a number above 0"),
+    "like": (lambda v: isinstance(v, str), "the name of a series, in quotes"),
     "sums": (lambda v: isinstance(v, bool), "True or False"),
     "reads": (
         lambda v: isinstance(v, tuple) and all(_texts(pair) and len(pair) == 2 for pair in v),

@@ -11,10 +11,10 @@ from gaitsim.model import Free, Number
 from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
 from gaitsim.spec.expression import BadExpression, parse_expression
 from gaitsim.spec.inheritance import VALUE_KEYS
-from gaitsim.spec.quantity import example, number
+from gaitsim.spec.quantity import example, number, written_unit
 from gaitsim.spec.quantity import said as said_of
 from gaitsim.spec.spelling import respelled
-from gaitsim.units import UnknownUnit, parse_quantity, parse_unit
+from gaitsim.units import parse_unit
 
 Names = dict[str, tuple[int, str]]
 _SPEC = "spec"  # the source of what a spec says without one
@@ -220,16 +220,9 @@ def _closed(declared: Parameter, node: Node | None) -> Parameter:
     """A declaration that leaves its unit open, in the unit of what a spec says; any other as it is."""
     while isinstance(node, Mapping):
         node = node.entries.get("tune", node.entries.get("value"))
-    first = node.items[0] if isinstance(node, Sequence) and node.items else node
-    if declared.unit != "*" or not isinstance(first, Scalar) or isinstance(first.value, bool) or first.value is None:
+    unit = written_unit(node)
+    if declared.unit != "*" or unit is None:
         return declared
-    try:
-        quantity = parse_quantity(first.value)
-    except UnknownUnit:
-        return declared
-    if quantity is None:
-        return declared
-    unit = quantity.unit
     default = None if declared.default is None else unit.of(declared.default)
     bounds = None if declared.bounds is None else (unit.of(declared.bounds[0]), unit.of(declared.bounds[1]))
     return replace(declared, unit=unit.text, default=default, bounds=bounds)

@@ -6,7 +6,7 @@ import math
 import re
 
 from gaitsim.errors import Faults, nearest
-from gaitsim.spec.document import Mapping, Node, Scalar
+from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
 from gaitsim.units import Quantity, Unit, UnknownUnit, known_units, parse_quantity, parse_unit
 
 _EXAMPLES = {
@@ -126,6 +126,18 @@ def number(node: Node, unit: str, faults: Faults, address: str) -> float | None:
     except BadQuantity as error:
         faults.add(str(error), node.mark, address)
         return None
+
+
+def written_unit(node: Node | None) -> Unit | None:
+    """The unit that a scalar, or the first one of a list, is written in; None if it is no quantity."""
+    first = node.items[0] if isinstance(node, Sequence) and node.items else node
+    if not isinstance(first, Scalar) or isinstance(first.value, bool) or first.value is None:
+        return None
+    try:
+        quantity = parse_quantity(first.value)
+    except UnknownUnit:
+        return None
+    return quantity.unit if quantity else None
 
 
 def number_with_unit(node: Node, unit: str, faults: Faults, address: str) -> float | None:

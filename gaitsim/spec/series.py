@@ -10,7 +10,7 @@ from gaitsim.model import Recording
 from gaitsim.parts.find import Library, at
 from gaitsim.parts.table import resampled
 from gaitsim.spec.document import Node, Scalar, Sequence
-from gaitsim.spec.quantity import example, measured, number
+from gaitsim.spec.quantity import example, measured, number, written_unit
 from gaitsim.units import parse_unit
 
 SAMPLE = "norms/fukuchi2018_walking.knee_flexion"
@@ -22,13 +22,15 @@ def read_series(
     """The numbers of a series in SI, `declared.size` of them at equal distances; None after a fault."""
     if isinstance(node, Sequence):
         before = len(faults.found)
-        values = [number(item, declared.unit, faults, f"{address}.{i}") for i, item in enumerate(node.items)]
+        given_in = written_unit(node) if declared.unit == "*" else None
+        unit = given_in.text if given_in else declared.unit
+        values = [number(item, unit, faults, f"{address}.{i}") for i, item in enumerate(node.items)]
         if len(values) < 2:
             faults.add("a curve has two numbers or more, at equal distances.", node.mark, address)
         given = [v for v in values if v is not None]
         if len(faults.found) > before:
             return None
-        return Recording(resampled(np.linspace(0, 1, len(given)), np.array(given), declared.size))
+        return Recording(resampled(np.linspace(0, 1, len(given)), np.array(given), declared.size), unit=unit)
     text = node.value if isinstance(node, Scalar) else None
     if not isinstance(text, str) or "/" not in text:
         one = example("1" if declared.unit == "*" else declared.unit)
@@ -52,4 +54,4 @@ def read_series(
         rule = f"{name} takes {measured(parse_unit(declared.unit))} [{declared.unit}]; choose another column."
         faults.add(f"{words} but {rule}", node.mark, address)
         return None
-    return Recording(table.curve(column, declared.size), text, table.recorded_by)
+    return Recording(table.curve(column, declared.size), text, table.recorded_by, given_unit)

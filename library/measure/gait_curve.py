@@ -36,12 +36,12 @@ class GaitCurve(Component):
     strides = State("1", "How many strides count.")
 
     value = Metric("1", "Correlation of the mean stride with the recorded curve.")
-    error = Metric("*", "Root of the mean square of their difference.")
-    shape_error = Metric("*", "The same after the mean of each is taken off.")
-    reach = Metric("*", "Highest minus lowest value of the mean stride.")
-    highest = Metric("*", "Highest value of the mean stride.")
+    error = Metric("*", "Root of the mean square of their difference.", like="curve")
+    shape_error = Metric("*", "The same after the mean of each is taken off.", like="curve")
+    reach = Metric("*", "Highest minus lowest value of the mean stride.", like="curve")
+    highest = Metric("*", "Highest value of the mean stride.", like="curve")
     highest_at = Metric("%", "Where in the cycle that is.")
-    lowest = Metric("*", "Lowest value of the mean stride.")
+    lowest = Metric("*", "Lowest value of the mean stride.", like="curve")
     lowest_at = Metric("%", "Where in the cycle that is.")
 
     @staticmethod
