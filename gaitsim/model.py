@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from gaitsim.errors import Mark, SimulationFailed
@@ -239,6 +239,16 @@ def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> di
             unit = measured.get(part.address, "*") if declared.unit == "*" else declared.unit
             found[name] = _like(part.series[declared.like].unit, unit) if declared.like in part.series else unit
     return found
+
+
+def headed(metric: str, models: Iterable[Model]) -> str:
+    """A metric as the heading of a column: hop [m], or speed for a plain number.
+
+    Its unit is that of all the models; where they differ, as a measured signal does, all are named.
+    """
+    units = dict.fromkeys(unit for model in models if (unit := model.metrics.get(metric)))
+    said = " or ".join(units)
+    return metric if said in ("", "1") else f"{metric} [{said}]"
 
 
 def _like(unit: str, other: str) -> str:

@@ -160,18 +160,19 @@ class Unit:
     def exactly(self, value: float) -> str:
         """A value in SI as text that reads back bit for bit: in this unit, or in SI's where no number of it does."""
         number = self.of(value)
-        return _said(repr(number), self.text) if self.to_si(number) == value else _said(repr(value), self.si)
+        return with_unit(repr(number), self.text) if self.to_si(number) == value else with_unit(repr(value), self.si)
 
     def shown(self, value: float) -> str:
         """A value in SI as people read it: 5 deg."""
-        return _said(f"{self.of(value):g}", self.text)
+        return with_unit(f"{self.of(value):g}", self.text)
 
     def span(self, low: float, high: float) -> str:
         """A range in SI as people read it: 5 to 40 deg."""
-        return _said(f"{self.of(low):g} to {self.of(high):g}", self.text)
+        return with_unit(f"{self.of(low):g} to {self.of(high):g}", self.text)
 
 
-def _said(number: str, unit: str) -> str:
+def with_unit(number: str, unit: str) -> str:
+    """A number and the unit that it is in, as text; a plain number stands alone."""
     return number if unit == "1" else f"{number} {unit}"
 
 

@@ -17,18 +17,19 @@ from gaitsim.spec.document import Mapping as Document
 from gaitsim.spec.inheritance import override, split_setting
 from gaitsim.spec.quantity import BadQuantity, quantity_of
 from gaitsim.spec.study import Span
-from gaitsim.units import parse_unit
+from gaitsim.units import parse_unit, with_unit
 
 
 @dataclass(frozen=True)
 class Until:
     """What ends the range of a number: that runs do not complete, or that a metric comes to a value.
 
-    value: in the metric's declared unit.
+    value: in the metric's unit.
     """
 
     metric: str = ""
     value: float = math.nan
+    unit: str = "1"
 
     def holds(self, outcome: Outcome, at_first: Outcome) -> bool:
         """Whether a run is still as it was at the first end; a failed run never is."""
@@ -42,7 +43,7 @@ class Until:
         if outcome.status == "failed":
             return f"failed: {outcome.reason}"
         if self.metric:
-            return f"{self.metric} = {outcome.metrics.get(self.metric, math.nan):.5g}"
+            return f"{self.metric} = {with_unit(f'{outcome.metrics.get(self.metric, math.nan):.5g}', self.unit)}"
         if outcome.status == "stopped":
             return f"{outcome.reason} at {outcome.simulated_seconds:.4g} s"
         return outcome.status
@@ -66,7 +67,7 @@ def until_of(text: str | None, model: Model) -> Until:
         quantity = quantity_of(value, unit.text)
     except BadQuantity as error:
         raise Usage(f"--until {text}: {error}") from error
-    return Until(metric, quantity.value / unit.factor)
+    return Until(metric, quantity.value / unit.factor, unit.text)
 
 
 @dataclass

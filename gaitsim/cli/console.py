@@ -49,7 +49,7 @@ def give_table(columns: Sequence[str], rows: Iterable[Sequence[str]], title: str
 
     table = Table(title=title or None, title_justify="left", header_style="bold", box=None)
     for column in columns:
-        table.add_column(column, overflow="fold")
+        table.add_column(_plain(column), overflow="fold")
     for row in rows:
         table.add_row(*(_plain(cell) for cell in row))
     wide = None if sys.stdout.isatty() else 10_000

@@ -161,7 +161,8 @@ def _report(
 
     single = len(rows) == 1 and not rows[0].settings
     if json:
-        tail = {"mode": mode.value, "result": str(folder) if folder else None}
+        units = {name: unit for model in models for name, unit in model.metrics.items()}
+        tail = {"units": units, "mode": mode.value, "result": str(folder) if folder else None}
         tables = [_data(outcome) for outcome in outcomes]
         if draws:
             console.give_json({"status": _overall(outcomes), **drawn_data(draws, models[0], outcomes, tables), **tail})
@@ -176,7 +177,7 @@ def _report(
     elif single and outcomes[0].status != "failed":
         _print_one(outcomes[0], models[0])
     elif not single:
-        _print_table(rows, outcomes)
+        _print_table(rows, outcomes, models)
     if folder:
         look = f"; see a draw: gaitsim run {folder} --candidate NUMBER" if draws else ""
         console.say(f"saved in {folder}{look}")
@@ -225,8 +226,8 @@ def _print_one(outcome: Outcome, model: Model) -> None:
     )
 
 
-def _print_table(rows: Sequence[Variant], outcomes: Sequence[Outcome]) -> None:
-    from gaitsim.model import headline_metrics
+def _print_table(rows: Sequence[Variant], outcomes: Sequence[Outcome], models: Sequence[Model]) -> None:
+    from gaitsim.model import headed, headline_metrics
 
     addresses = list(dict.fromkeys(address for row in rows for address in row.settings))
     # A table has no room for all; --json has.
@@ -239,4 +240,4 @@ def _print_table(rows: Sequence[Variant], outcomes: Sequence[Outcome]) -> None:
         )
         for row, outcome in zip(rows, outcomes, strict=True)
     ]
-    console.give_table([*addresses, "status", *names], table)
+    console.give_table([*addresses, "status", *(headed(name, models) for name in names)], table)

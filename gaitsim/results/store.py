@@ -26,6 +26,7 @@ from gaitsim.results.trust import remember
 from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.spec.document import dump
+from gaitsim.units import with_unit
 
 
 class CannotSave(GaitsimError):
@@ -77,7 +78,7 @@ def save_run(
         drawn = enumerate(draws.values(problem_of(model)), start=1)
         found = [row | {"draw": k, "values": values} for row, (k, values) in zip(found, drawn, strict=True)]
     lines = [json.dumps(row, allow_nan=False) for row in found]
-    headline = [*_tally(draws, rows), *(_headline(row) for row in found[:20])]
+    headline = [*_tally(draws, rows), *(_headline(row, model.metrics) for row in found[:20])]
     more = {"evaluations.jsonl": "\n".join(lines) + "\n", "README.md": readme(manifest, headline, "")}
     return create_result(root, bundle, model, xml, manifest, more)
 
@@ -111,9 +112,10 @@ def _tally(draws: Draws | None, rows: Sequence[Row]) -> list[str]:
     return [f"{done} of {draws.count} draws within {100 * draws.within:g} % completed (seed {draws.seed})"]
 
 
-def _headline(row: Map[str, Any]) -> str:
+def _headline(row: Map[str, Any], units: Map[str, str]) -> str:
     said = row_words(row)
-    numbers = ", ".join(f"{name} {math.nan if v is None else v:.5g}" for name, v in row["metrics"].items())
+    found = {name: math.nan if v is None else v for name, v in row["metrics"].items()}
+    numbers = ", ".join(f"{name} {with_unit(f'{v:.5g}', units.get(name, '1'))}" for name, v in found.items())
     return f"{said + ': ' if said else ''}{row['status']}{': ' + numbers if numbers else ''}"
 
 

@@ -14,7 +14,7 @@ from gaitsim.spec.inheritance import VALUE_KEYS
 from gaitsim.spec.quantity import example, number, written_unit
 from gaitsim.spec.quantity import said as said_of
 from gaitsim.spec.spelling import respelled
-from gaitsim.units import parse_unit
+from gaitsim.units import parse_unit, with_unit
 
 Names = dict[str, tuple[int, str]]
 _SPEC = "spec"  # the source of what a spec says without one
@@ -181,7 +181,7 @@ class NumberTable:
 
     def _bounds(self, node: Node, declared: Parameter, address: str) -> tuple[float, float] | None:
         if not isinstance(node, Sequence) or len(node.items) != 2:
-            pair = ", ".join(f"{bound}{_suffix(declared.unit)}" for bound in (1, 5))
+            pair = ", ".join(with_unit(str(bound), declared.unit) for bound in (1, 5))
             self.faults.add(f"tune needs two bounds; write such as tune: [{pair}].", node.mark, address)
             return None
         low, high = (number(item, declared.unit, self.faults, address) for item in node.items)
@@ -226,7 +226,3 @@ def _closed(declared: Parameter, node: Node | None) -> Parameter:
     default = None if declared.default is None else unit.of(declared.default)
     bounds = None if declared.bounds is None else (unit.of(declared.bounds[0]), unit.of(declared.bounds[1]))
     return replace(declared, unit=unit.text, default=default, bounds=bounds)
-
-
-def _suffix(unit: str) -> str:
-    return "" if unit == "1" else f" {unit}"

@@ -11,7 +11,7 @@ from gaitsim.errors import Faults, Mark, Usage
 from gaitsim.spec.document import Mapping, Node, Sequence, dump, plain
 from gaitsim.spec.inheritance import laid, override, split_setting, without
 from gaitsim.spec.quantity import in_plain_letters, said, unknown_unit
-from gaitsim.units import UnknownUnit, parse_quantity
+from gaitsim.units import UnknownUnit, parse_quantity, with_unit
 
 _RANGE_LIMIT = 100_000
 
@@ -35,8 +35,7 @@ class Span:
 
     def at(self, share: float) -> str:
         """The value at a share of the way, from 0 to 1, as a spec has it."""
-        suffix = "" if self.unit == "1" else f" {self.unit}"
-        return f"{float(f'{self.first + share * (self.last - self.first):.12g}')!r}{suffix}"
+        return with_unit(repr(float(f"{self.first + share * (self.last - self.first):.12g}")), self.unit)
 
 
 def span(text: str) -> tuple[str, Span]:

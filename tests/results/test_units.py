@@ -213,3 +213,34 @@ def test_bounds_of_two_dimensions_are_refused_where_the_unit_is_open(command: An
     ended = command("check", "spec.yaml", "--set", "odd.any_of={value: 1 s, tune: [1 s, 2 kg]}")
     assert ended.code == 3
     assert 'odd.any_of: kg is a unit of mass; this needs a time, such as "20 ms".' in ended.err
+
+
+def test_a_table_of_runs_names_the_units_of_its_columns(command: Any) -> None:
+    ended = command("run", "spec.yaml", "--vary", "odd.angle=20 deg,0.2 rad", "--no-save")
+    heads, first, second = (line.split() for line in ended.out.splitlines()[:3])
+    assert heads == ["odd.angle", "status", "seen", "[deg]", "told", "[deg]"]
+    assert first == ["20", "deg", "completed", "20", "20"]
+    assert second == ["0.2", "rad", "completed", *2 * [f"{math.degrees(0.2):.5g}"]]
+    data = command("run", "spec.yaml", "--no-save", "--json").data
+    assert (data["units"]["told"], data["units"]["told.cost"]) == ("deg", "rad")
+    assert data["metrics"]["told"] == pytest.approx(20) and data["metrics"]["told.cost"] == SAID["odd.angle"][2]
+    kept = command("run", "spec.yaml", "--json").data["result"]
+    assert "told 20 deg, told.cost 0.34907 rad" in (Path(kept) / "README.md").read_text()
+
+
+def test_a_limit_is_told_with_its_unit(command: Any) -> None:
+    ended = command(
+        "limit", "spec.yaml", "--vary", "odd.angle=5 deg:35 deg", "--until", "told=0.35 rad", "--points", "3"
+    )
+    row = next(line for line in ended.out.splitlines() if line.split()[:1] == ["odd.angle"])
+    assert "20.0 deg         20.234375 deg        told = 20.234 deg" in row
+
+
+def test_draws_keep_values_in_si_and_metrics_in_their_units(command: Any) -> None:
+    ended = command("run", "spec.yaml", "--draws", "2", "--json")
+    for row in ended.data["rows"]:
+        assert row["metrics"]["told"] == row["values"]["odd.angle"] / parse_unit("deg").factor
+    assert ended.data["summary"]["told"]["unit"] == "deg"
+    assert command("results", "verify", ended.data["result"]).code == 0
+    again = command("run", ended.data["result"], "--candidate", "2", "--no-save", "--json")
+    assert again.data["metrics"] == ended.data["rows"][1]["metrics"]
