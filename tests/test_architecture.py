@@ -39,7 +39,7 @@ def users(module: str) -> set[str]:
 def test_only_the_compiler_and_the_simulation_know_mujoco_and_numba() -> None:
     # animation draws with it.
     assert users("mujoco") == {"animation", "compiler", "simulation"}
-    assert users("numba") == {"compiler", "simulation"}
+    assert users("numba") == {"compiler"}
 
 
 def test_only_the_cli_prints() -> None:

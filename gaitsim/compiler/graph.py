@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Iterable
 from dataclasses import dataclass
 
@@ -41,29 +42,78 @@ def schedule(model: Model, delayed: Iterable[Connection]) -> tuple[Call, ...]:
     return tuple(Call(part, last[part] == k) for k, part in enumerate(calls))
 
 
+class _Waiting:
+    """Outputs that are not computed yet, and how many of what each needs is not either."""
+
+    def __init__(self, needs: dict[Port, set[Port]]) -> None:
+        self.lacking = {port: sum(need in needs for need in wanted) for port, wanted in needs.items()}
+        self.outputs: dict[int, set[str]] = {}
+        self.readers: dict[Port, list[Port]] = {}
+        for (part, output), wanted in needs.items():
+            self.outputs.setdefault(part, set()).add(output)
+            for need in wanted:
+                self.readers.setdefault(need, []).append((part, output))
+        self.ready: dict[int, set[str]] = {part: set() for part in self.outputs}
+        self.queue: list[tuple[int, int]] = []
+        for port, lacking in self.lacking.items():
+            if not lacking:
+                self._can(port)
+
+    def next(self) -> int | None:
+        """The part to call next; None if none can be."""
+        while self.queue:
+            rank, part = heapq.heappop(self.queue)
+            if self.ready[part] and rank == self._rank(part):
+                return part
+        return None
+
+    def call(self, part: int) -> None:
+        """Compute all that can be."""
+        done, self.ready[part] = self.ready[part], set()
+        self.outputs[part] -= done
+        for output in done:
+            for reader in self.readers.get((part, output), ()):
+                self.lacking[reader] -= 1
+                if not self.lacking[reader]:
+                    self._can(reader)
+
+    def _can(self, port: Port) -> None:
+        part, output = port
+        self.ready[part].add(output)
+        rank = self._rank(part)
+        if rank is not None:
+            heapq.heappush(self.queue, (rank, part))
+
+    def _rank(self, part: int) -> int | None:
+        """0: all its outputs can be computed. 1: it is called again anyhow. 2: it would have to be. None: no use."""
+        if self.ready[part] == self.outputs[part]:
+            return 0
+        reached = {port for output in self.ready[part] for port in self.readers.get((part, output), ())}
+        if not reached:
+            return None
+        ahead = list(reached)
+        while ahead:
+            port = ahead.pop()
+            # What it can give leads to what it cannot yet.
+            if port[0] == part:
+                return 1
+            following = [reader for reader in self.readers.get(port, ()) if reader not in reached]
+            reached.update(following)
+            ahead += following
+        return 2
+
+
 def _ordered(model: Model, needs: dict[Port, set[Port]]) -> list[int]:
-    waiting: dict[int, set[str]] = {}
-    for part, output in needs:
-        waiting.setdefault(part, set()).add(output)
+    waiting = _Waiting(needs)
     # A part without outputs, or whose outputs MuJoCo sets, is called once all others are done.
-    rest = [i for i in range(len(model.parts)) if i not in waiting]
+    rest = [i for i in range(len(model.parts)) if i not in waiting.outputs]
     calls: list[int] = []
-    while waiting:
-        ready = {
-            part: {o for o in outputs if not any(n in waiting.get(p, ()) for p, n in needs[part, o])}
-            for part, outputs in waiting.items()
-        }
-        whole = [part for part in waiting if ready[part] == waiting[part]]
-        # Only for an output that others wait for is a part called before all its inputs are there.
-        wanted = {n for part, outputs in waiting.items() for o in outputs for n in needs[part, o]}
-        some = whole or [p for p in waiting if any((p, o) in wanted for o in ready[p])]
-        if not some:
-            raise InvalidSpec(_loop(model, needs, waiting))
-        part = some[0]
+    while (part := waiting.next()) is not None:
         calls.append(part)
-        waiting[part] -= ready[part]
-        if not waiting[part]:
-            del waiting[part]
+        waiting.call(part)
+    left = {part: outputs for part, outputs in waiting.outputs.items() if outputs}
+    if left:
+        raise InvalidSpec(_loop(model, needs, left))
     return calls + rest
 
 

@@ -1,83 +1,148 @@
-"""One native kernel per component type, cached by the digest of everything it is made from.
+"""One kernel per component type, in LLVM's language, kept by the digest of everything it is made from.
 
-The component's file is taken as it is, so that line numbers hold, and a footer is appended that
-turns its functions into one C function.
+The component's text is compiled as it is, so that line numbers hold, and a footer is appended that
+turns its functions into one. numba is needed for that only, so it is imported only then.
 """
 
 from __future__ import annotations
 
+import hashlib
 import re
+import sys
+from dataclasses import dataclass
 from functools import cache
-from typing import Any
+from types import ModuleType
 
-from numba import types
-from numba.core.errors import NumbaError
-
-from gaitsim.compiler.native import native
+from gaitsim.cache import keep, kept
+from gaitsim.compiler import machine
 from gaitsim.errors import Fault, InvalidComponent, Mark
 from gaitsim.parts.primitive import Primitive
 
 START, OUTPUT, UPDATE = 0, 1, 2
+STAGES = {"start": START, "output": OUTPUT, "update": UPDATE}
 
 _FOOTER = '''
 
-# Appended by gaitsim: the functions above as one C function.
+# Appended by gaitsim: the functions above as one.
 import numpy as _np
-from numba import carray as _carray, njit as _njit
+from numba import carray as _carray, njit as _njit, types as _types
 
-_OPTIONS = {{"error_model": "numpy", "boundscheck": True}}
+_OPTIONS = {{"error_model": "numpy", "boundscheck": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}}
 _P = _np.dtype({parameters!r})
 _U = _np.dtype({inputs!r})
 _X = _np.dtype({states!r})
 _Y = _np.dtype({outputs!r})
 {helpers}
 {functions}
+_POINTERS = (_types.voidptr,) * 4
 
 
+@_njit(_types.int64(_types.int64, *_POINTERS, _types.float64), **_OPTIONS)
 def kernel(stage, p, u, x, y, dt):
     parameters = _carray(p, 1, _P)[0]
     inputs = _carray(u, 1, _U)[0]
     states = _carray(x, 1, _X)[0]
     outputs = _carray(y, 1, _Y)[0]
-    try:
 {calls}
-    except Exception:
-        return 1
     return 0
 '''
-_SIGNATURE = types.int64(types.int64, *[types.voidptr] * 4, types.float64)
 _ARGUMENTS = {
     "start": "parameters, inputs, states",
     "output": "parameters, inputs, states, outputs",
     "update": "parameters, inputs, states, outputs, dt",
 }
+# numba's way to call: where the result goes, where an exception goes; what comes back is 0 unless it raised.
+_ALONE = """
+declare i32 @{name}(ptr, ptr, i64, ptr, ptr, ptr, ptr, double)
+
+define i64 @{name}.alone(i64 %stage, ptr %p, ptr %u, ptr %x, ptr %y, double %dt) {{
+  %result = alloca i64
+  %raised = alloca ptr
+  store ptr null, ptr %raised
+  %status = call i32 @{name}(ptr %result, ptr %raised, i64 %stage, ptr %p, ptr %u, ptr %x, ptr %y, double %dt)
+  %wide = zext i32 %status to i64
+  ret i64 %wide
+}}
+"""
 
 
-def address_of(component: Primitive) -> int:
-    """The address of a component's native kernel: `int64 (stage, p*, u*, x*, y*, dt)`.
+@dataclass(frozen=True)
+class Kernel:
+    """The native functions of one component type: their name in LLVM's language, which no other kernel has."""
 
-    Errors: InvalidComponent if the component is not native code.
-    """
-    return int(_kernel(component).address)
+    component: Primitive
+    name: str
+
+    def bitcode(self) -> bytes:
+        """The module that has `int32 name(result*, exception**, stage, p*, u*, x*, y*, dt)`; not 0 if it raised.
+
+        Errors: InvalidComponent if the component cannot become native code.
+        """
+        found = kept("kernels", self.name)
+        if found is None:
+            found = _compiled(self)
+            keep("kernels", self.name, found)
+        return found
 
 
 @cache
-def _kernel(component: Primitive) -> Any:
+def kernel_of(component: Primitive) -> Kernel:
+    """The kernel of a component, which nothing compiles before its code is asked for."""
+    text = component.source + _footer(component)
+    digest = hashlib.sha256(f"{text}|{machine.environment()}".encode()).hexdigest()
+    return Kernel(component, f"kernel.{digest[:32]}")
+
+
+def address_of(component: Primitive) -> int:
+    """The address of a component's native function alone: `int64 (stage, p*, u*, x*, y*, dt)`, not 0 if it raised.
+
+    Errors: InvalidComponent if the component cannot become native code.
+    """
+    return _alone(component).address(f"{kernel_of(component).name}.alone")
+
+
+@cache
+def _alone(component: Primitive) -> machine.Code:
+    kernel = kernel_of(component)
+
+    def make() -> bytes:
+        module = machine.linked(_ALONE.format(name=kernel.name), [kernel.bitcode()])
+        return machine.object_file(module, [f"{kernel.name}.alone"])
+
+    return machine.code("kernels", f"{kernel.name}.alone", make)
+
+
+def _compiled(kernel: Kernel) -> bytes:
+    import llvmlite.binding as llvm
+    from numba.core.errors import NumbaError
+
     try:
-        return native("kernels", component.source + _footer(component), component.shown, "kernel", _SIGNATURE)
+        function = _executed(kernel).kernel
     except NumbaError as error:
-        raise InvalidComponent(_explained(error, component)) from error
+        raise InvalidComponent(_explained(error, kernel.component)) from error
+    (found,) = function.overloads.values()
+    module = llvm.parse_assembly(found.library.get_llvm_str())
+    module.get_function(found.fndesc.llvm_func_name).name = kernel.name
+    return bytes(machine.stripped(module, [kernel.name]).as_bitcode())
+
+
+def _executed(kernel: Kernel) -> ModuleType:
+    """A component's text and footer as a module; what they tell numba to compile is compiled here."""
+    component = kernel.component
+    module = ModuleType(kernel.name.replace(".", "_"))
+    sys.modules[module.__name__] = module
+    try:
+        exec(compile(component.source + _footer(component), component.shown, "exec"), module.__dict__)
+    finally:
+        del sys.modules[module.__name__]
+    return module
 
 
 def _footer(component: Primitive) -> str:
     used = [name for name in _ARGUMENTS if name in component.functions]
     cls = component.cls.__name__
     functions = [f'_{n} = _njit({cls}.__dict__["{n}"].__func__, **_OPTIONS)' for n in used]
-    calls = [
-        f"        if stage == {stage}:\n            _{name}({_ARGUMENTS[name]})"
-        for stage, name in ((START, "start"), (OUTPUT, "output"), (UPDATE, "update"))
-        if name in used
-    ]
+    calls = [f"    if stage == {STAGES[name]}:\n        _{name}({_ARGUMENTS[name]})" for name in used]
     helpers = re.findall(r"^def (\w+)", component.source, re.MULTILINE)
     return _FOOTER.format(
         parameters=_layout(dict.fromkeys(component.parameters) | {n: s.size for n, s in component.series.items()}),
@@ -86,7 +151,7 @@ def _footer(component: Primitive) -> str:
         outputs=_layout(dict.fromkeys(component.outputs)),
         helpers="\n".join(f"{name} = _njit({name}, **_OPTIONS)" for name in helpers),
         functions="\n".join(functions),
-        calls="\n".join(calls) or "        pass",
+        calls="\n".join(calls),
     )
 
 
@@ -98,7 +163,7 @@ def _layout(fields: dict[str, int | None]) -> list[tuple[str, str] | tuple[str, 
     return made or [("_nothing", "f8")]
 
 
-def _explained(error: NumbaError, component: Primitive) -> Fault:
+def _explained(error: Exception, component: Primitive) -> Fault:
     """The first sentence of the compiler, and the line it is about."""
     text = re.sub(r"\x1b\[[0-9;]*m", "", str(error))
     lines = [int(n) for n in re.findall(r'File ".*?", line (\d+)', text)]

@@ -156,18 +156,29 @@ def body_order(model: Model) -> list[tuple[Part, Part]]:
     return ordered
 
 
+_KINDS = {
+    "joint": mujoco.mjtObj.mjOBJ_JOINT,
+    "tendon": mujoco.mjtObj.mjOBJ_TENDON,
+    "actuator": mujoco.mjtObj.mjOBJ_ACTUATOR,
+    "sensor": mujoco.mjtObj.mjOBJ_SENSOR,
+}
+# Where MuJoCo's model says at which place an element's first number lies; at the element's own elsewhere.
+_FIRST = {
+    "qpos": "jnt_qposadr",
+    "qvel": "jnt_dofadr",
+    "qacc": "jnt_dofadr",
+    "qfrc_applied": "jnt_dofadr",
+    "sensordata": "sensor_adr",
+}
+
+
 def tie_place(model: Any, tie: Tie) -> int:
     """Where in its array of MuJoCo's data a tied number lies."""
     if tie.element is None:
         return tie.index
-    element = getattr(model, tie.element.kind)(tie.element.name)
-    first: dict[str, Callable[[], Any]] = {
-        "qpos": lambda: element.qposadr[0],
-        "qvel": lambda: element.dofadr[0],
-        "qfrc_applied": lambda: element.dofadr[0],
-        "sensordata": lambda: element.adr[0],
-    }
-    return int(first.get(tie.field, lambda: element.id)()) + tie.index
+    element = mujoco.mj_name2id(model, _KINDS[tie.element.kind], tie.element.name)
+    first = getattr(model, _FIRST[tie.field])[element] if tie.field in _FIRST else element
+    return int(first) + tie.index
 
 
 def _owner(frame: str) -> str:

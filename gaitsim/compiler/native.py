@@ -1,89 +1,78 @@
-"""C functions from generated Python, compiled once on a machine and kept in the cache."""
+"""Native code of a plan: what its functions are given and return, and how it comes from the cache."""
 
 from __future__ import annotations
 
 import hashlib
-import linecache
-import os
-import pickle
-import platform
-import sys
-from functools import cache
-from types import ModuleType
-from typing import Any
+from collections.abc import Mapping
 
-import llvmlite.binding
-import numba
-import numpy as np
-from numba.core import sigutils
-from numba.core.caching import NullCache
-from numba.core.ccallback import CFunc
-from numba.core.compiler import CompileResult
-from numba.core.serialize import dumps
+from gaitsim.compiler import machine
+from gaitsim.compiler.kernel import Kernel
+from gaitsim.compiler.plan import Plan
 
-from gaitsim import __version__
-from gaitsim.cache import keep, kept, tell_once
+# What `run` returns: all steps are done, something is not finite or raised, the mechanics diverged,
+# or a part has stopped the run (STOPPED + which of the plan's stops).
+COMPLETED, SUSPECT, DIVERGED, STOPPED = 0, 1, 2, 3
+# Tables of states and outputs have a multiple of this many numbers, so that they are checked by the dozen.
+PADDING = 32
+
+# What functions are given, each an integer, a number (a double), a pointer to a table of its own, or a pointer
+# into what others reach as well. First what all of a step get: its number and length, the tables, and the past
+# of delayed signals: rows of one number for each line, a power of two of them, and each line's delay in steps.
+_TABLES = {
+    "dt": "number",
+    "parameters": "pointer",
+    "base": "pointer",
+    "states": "pointer",
+    "outputs": "pointer",
+    "past": "pointer",
+    "mask": "integer",
+    "whole": "pointer",
+    "rest": "pointer",
+}
+FRAME = {"step": "integer", **_TABLES}
+# Addresses of what is read and written in MuJoCo's data; values before the start; initial values of states.
+START = {
+    **_TABLES,
+    "ties": "pointer",
+    "before": "pointer",
+    "places": "pointer",
+    "values": "pointer",
+    "count": "integer",
+    "rounds": "integer",
+}
+RUN = {
+    **_TABLES,
+    "ties": "pointer",
+    "first": "integer",
+    "steps": "integer",
+    "model": "shared",
+    "data": "shared",
+    "qpos": "shared",
+    "qvel": "shared",
+    "record": "pointer",
+    "reached": "pointer",
+}
 
 
-def native(kind: str, text: str, file: str, name: str, signature: Any) -> CFunc:
-    """The C function that a function of a text becomes; its `address` is what calls it.
+def compiled(plan: Plan, kernels: Mapping[str, Kernel]) -> machine.Code:
+    """The machine code of a plan, with functions `start` and `run`.
 
-    Args:
-        kind: The folder of the cache: kernels, programs.
-        text: A Python module. Its machine code must follow from it, gaitsim's version and the machine alone.
-        file: How errors and tracebacks call the text.
-        name: The function in it.
-        signature: Its numba types.
-
-    Errors: numba's own.
+    Errors: InvalidComponent if a kernel cannot become native code.
     """
-    key = hashlib.sha256(f"{name}|{signature}|{text}|{_environment()}".encode()).hexdigest()[:32]
-    module = _executed(f"gaitsim_{kind}_{key}", text, file)
-    made = CFunc(getattr(module, name), sigutils.normalize_signature(signature), {}, {"error_model": "numpy"})
-    made._cache = _Entry(kind, key)  # type: ignore[attr-defined]
-    made.compile()
-    return made
+    key = hashlib.sha256(f"{plan}|{machine.environment()}".encode()).hexdigest()[:32]
+
+    def make() -> bytes:
+        from gaitsim.compiler.translation import Translation
+
+        bitcode = [kernel.bitcode() for kernel in kernels.values()]
+        module = machine.linked(str(Translation(plan).module()), bitcode)
+        for name in kernels:
+            module.get_function(name).add_function_attribute("alwaysinline")
+        return machine.object_file(module, ["start", "run"])
+
+    return machine.code("programs", key, make)
 
 
-class _Entry(NullCache):  # type: ignore[misc]
-    """What numba asks for the machine code of one C function, and gives it to."""
-
-    def __init__(self, kind: str, key: str) -> None:
-        self.kind, self.key = kind, key
-
-    def load_overload(self, _: Any, target: Any) -> CompileResult | None:
-        """The machine code as it was kept; None if there is none."""
-        target.refresh()
-        data = kept(self.kind, self.key)
-        if data is None:
-            return None
-        try:
-            return CompileResult._rebuild(target, *pickle.loads(data))
-        except Exception as error:  # whatever it is, compiling anew mends it
-            tell_once(f"machine code in the cache cannot be used ({type(error).__name__}); it is compiled again.")
-            return None
-
-    def save_overload(self, _: Any, result: CompileResult) -> None:
-        """Keep new machine code, unless it holds addresses of this process."""
-        if not result.library.has_dynamic_globals:
-            keep(self.kind, self.key, dumps(result._reduce()))
-
-
-def _executed(name: str, text: str, file: str) -> ModuleType:
-    """A text as a module; numba finds it by its name, and errors find its lines."""
-    module = ModuleType(name)
-    module.__file__ = file
-    linecache.cache[file] = (len(text), None, text.splitlines(keepends=True), file)
-    sys.modules[name] = module
-    exec(compile(text, file, "exec"), module.__dict__)
-    return module
-
-
-@cache
-def _environment() -> str:
-    """What else the machine code depends on."""
-    processor = llvmlite.binding.get_host_cpu_name()
-    features = llvmlite.binding.get_host_cpu_features().flatten()
-    versions = [__version__, numba.__version__, np.__version__, platform.python_version()]
-    switches = sorted(f"{k}={v}" for k, v in os.environ.items() if k.startswith("NUMBA_"))
-    return "|".join([*versions, processor, features, *switches])
+def padded(size: int) -> int:
+    """The size of a table that is checked as a whole."""
+    return -(-size // PADDING) * PADDING

@@ -26,15 +26,21 @@ class Layout:
 
     offsets: Integers
     fields: tuple[dict[str, int], ...]
+    sizes: tuple[int, ...]
     size: int
 
     def place(self, part: int, name: str) -> int:
         """The place of one field in the whole table."""
         return int(self.offsets[part]) + self.fields[part][name]
 
+    def span(self, part: int) -> range:
+        """The places of all fields of one part."""
+        begin = int(self.offsets[part])
+        return range(begin, begin + self.sizes[part])
+
 
 def _layout(sizes: Sequence[dict[str, int]]) -> Layout:
-    offsets, fields, total = [], [], 0
+    offsets, fields, insides, total = [], [], [], 0
     for each in sizes:
         offsets.append(total)
         own, inside = {}, 0
@@ -42,8 +48,9 @@ def _layout(sizes: Sequence[dict[str, int]]) -> Layout:
             own[name] = inside
             inside += size
         fields.append(own)
+        insides.append(inside)
         total += max(inside, 1)
-    return Layout(np.array(offsets, dtype=np.int64), tuple(fields), total)
+    return Layout(np.array(offsets, dtype=np.int64), tuple(fields), tuple(insides), total)
 
 
 @dataclass(frozen=True)
@@ -53,6 +60,26 @@ class DelayLine:
     source: int
     number: int
     initial: int | None
+
+
+@dataclass(frozen=True)
+class _Filling:
+    """How a table is filled for a candidate: fixed numbers, and places that take numbers of the model."""
+
+    fixed: Floats
+    places: Integers
+    numbers: Integers
+
+    @staticmethod
+    def of(fixed: Floats, chosen: dict[int, int]) -> _Filling:
+        """From the numbers that do not change, and for each other place the index of its number."""
+        return _Filling(fixed, np.array(list(chosen), dtype=np.int64), np.array(list(chosen.values()), dtype=np.int64))
+
+    def filled(self, values: Floats) -> Floats:
+        """A new table for all numbers of a candidate."""
+        table = self.fixed.copy()
+        table[self.places] = values[self.numbers]
+        return table
 
 
 @dataclass(frozen=True)
@@ -156,31 +183,46 @@ class Program:
         """The part that a place in the table of outputs belongs to."""
         return int(np.searchsorted(self.outputs.offsets, place, side="right")) - 1
 
-    def parameter_table(self, values: Sequence[float]) -> Floats:
+    def parameter_table(self, values: Floats) -> Floats:
         """Every part's parameters for one candidate."""
-        table = np.zeros(self.parameters.size)
+        return self._parameters_from.filled(values)
+
+    @cached_property
+    def _parameters_from(self) -> _Filling:
+        fixed, chosen = np.zeros(self.parameters.size), {}
         for i, part in enumerate(self.model.parts):
-            for name, number in part.numbers.items():
-                if name in part.type.parameters:
-                    table[self.parameters.place(i, name)] = values[number]
+            for name in part.type.parameters:
+                if name in part.numbers:
+                    chosen[self.parameters.place(i, name)] = part.numbers[name]
             for name, recording in part.series.items():
                 begin = self.parameters.place(i, name)
-                table[begin : begin + len(recording.values)] = recording.values
-        return table
+                fixed[begin : begin + len(recording.values)] = recording.values
+        return _Filling.of(fixed, chosen)
 
-    def input_base(self, values: Sequence[float]) -> Floats:
+    def input_base(self, values: Floats) -> Floats:
         """What each input has without its senders: a constant, or the default."""
-        table = np.zeros(self.inputs.size)
+        return self._base_from.filled(values)
+
+    @cached_property
+    def _base_from(self) -> _Filling:
+        fixed, chosen = np.zeros(self.inputs.size), {}
         for i, part in enumerate(self.model.parts):
             for name, declared in part.type.inputs.items():
                 place = self.inputs.place(i, name)
                 if name in part.constants:
-                    table[place] = values[part.constants[name]]
+                    chosen[place] = part.constants[name]
                 elif not self.senders[place] and declared.default is not None:
-                    table[place] = parse_unit(declared.unit).to_si(declared.default)
-        return table
+                    fixed[place] = parse_unit(declared.unit).to_si(declared.default)
+        return _Filling.of(fixed, chosen)
 
-    def delay_steps(self, values: Sequence[float]) -> Floats:
+    @cached_property
+    def has_base(self) -> tuple[bool, ...]:
+        """Which inputs have more than their senders, for some candidate."""
+        found = self._base_from.fixed != 0
+        found[self._base_from.places] = True
+        return tuple(bool(each) for each in found)
+
+    def delay_steps(self, values: Floats) -> Floats:
         """Each delay line's delay in steps; nearly whole numbers are whole.
 
         Errors: SimulationFailed for a delay that an expression makes shorter than a step.
@@ -195,10 +237,6 @@ class Program:
                 rule = f"{values[line.number]:g} s is shorter than one step of {step:g} s"
                 raise SimulationFailed(f"{address}: {rule}")
         return steps
-
-    def capacities(self, values: Sequence[float]) -> Integers:
-        """How many past values each delay line keeps: its delay, two to interpolate, one to write."""
-        return np.ceil(self.delay_steps(values)).astype(np.int64) + 3
 
     def _delayed(self, connection: Connection) -> bool:
         """Whether a connection has a delay; a fixed delay of zero is none."""

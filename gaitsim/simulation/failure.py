@@ -3,32 +3,12 @@
 from __future__ import annotations
 
 import traceback
-from typing import Any
 
 import numpy as np
 
 from gaitsim.compiler.program import Floats, Program
 from gaitsim.model import Part
-from gaitsim.parts.load import function_of
 from gaitsim.simulation.view import View, views
-
-
-def of_component(
-    program: Program, part: int, stage: str, step: int, p: Floats, u: Floats, x: Floats, y: Floats
-) -> str:
-    """The failure of a part in native code, told by calling its Python function once more."""
-    p_, u_, x_, y_ = views(program, part, p, u, x.copy(), y.copy())
-    arguments: dict[str, tuple[Any, ...]] = {
-        "start": (p_, u_, x_),
-        "output": (p_, u_, x_, y_),
-        "update": (p_, u_, x_, y_, program.model.simulate.step),
-    }
-    try:
-        with np.errstate(all="ignore"):
-            function_of(program.model.parts[part].type.cls, stage)(*arguments[stage])
-    except Exception as error:
-        return of_exception(program, part, stage, step, error)
-    return of_values(program, part, stage, step, u, x, y)
 
 
 def of_exception(program: Program, part: int, stage: str, step: int, error: Exception) -> str:
@@ -91,6 +71,12 @@ def of_mechanics(program: Program, wrong: list[str], step: int) -> str:
     """Joint coordinates that are no longer finite."""
     said = f" in {', '.join(wrong)}" if wrong else ""
     return f"the mechanics diverged{said} at {_when(program, step)}; try a shorter step"
+
+
+def of_nothing_found(program: Program, step: int) -> str:
+    """Native code ended a run, and plain Python finds no reason."""
+    said = f"native code raised or gave no finite number at {_when(program, step)}, and plain Python does not"
+    return f"{said}; run it with --mode normal"
 
 
 def _who(program: Program, part: int) -> str:

@@ -1,33 +1,60 @@
-"""Runs a program in rapid mode: fills the native loop's tables for one candidate."""
+"""Runs a program in rapid mode: native code on the tables of one candidate."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import ctypes
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from gaitsim.compiler.kernel import address_of
-from gaitsim.compiler.mjcf import tie_place
-from gaitsim.compiler.program import Floats, Integers, Layout, Program
-from gaitsim.simulation import native_loop as native
+from gaitsim.compiler import native
+from gaitsim.compiler.machine import Code
+from gaitsim.compiler.mjcf import Assembly, tie_place
+from gaitsim.compiler.plan import plan_of
+from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
 from gaitsim.simulation.body import Body
 from gaitsim.simulation.ending import Ending
-from gaitsim.simulation.failure import of_component
+from gaitsim.simulation.failure import of_nothing_found
+from gaitsim.simulation.python_loop import Checked, Failed
+from gaitsim.simulation.tables import Tables
 from gaitsim.simulation.waiting import interruptible
 
-_STAGES = {native.START: "start", native.OUTPUT: "output", native.UPDATE: "update"}
+_C_TYPES: Mapping[str, Any] = {
+    "integer": ctypes.c_int64,
+    "number": ctypes.c_double,
+    "pointer": ctypes.c_void_p,
+    "shared": ctypes.c_void_p,
+}
 
 
-def _begins(layout: Layout) -> Integers:
-    return np.append(layout.offsets, layout.size).astype(np.int64)
+@dataclass(frozen=True)
+class _Native:
+    """A program's native functions for mechanics of one shape, by what they are given; they hold no lock."""
+
+    code: Code  # in memory for as long as this lives
+    start: Callable[[Mapping[str, Any]], int]
+    run: Callable[[Mapping[str, Any]], int]
+
+    @staticmethod
+    def of(code: Code) -> _Native:
+        def function(name: str, words: Mapping[str, str]) -> Callable[[Mapping[str, Any]], int]:
+            kinds = [_C_TYPES[kind] for kind in words.values()]
+            called = ctypes.CFUNCTYPE(ctypes.c_int64, *kinds)(code.address(name))
+            return lambda given: int(called(*(given[word] for word in words)))
+
+        return _Native(code, function("start", native.START), function("run", native.RUN))
 
 
-def _integers(rows: Any, width: int = 0) -> Integers:
-    table = np.array(rows, dtype=np.int64)
-    return table.reshape(-1, width) if width else table
+@dataclass(frozen=True)
+class _Reached:
+    """How far native code came: whether all parts have started, how it ended, in which step, and the tables then."""
+
+    started: bool
+    status: int
+    step: int
+    tables: Tables
 
 
 @dataclass
@@ -36,70 +63,11 @@ class Rapid:
 
     program: Program
     body: Body = field(init=False)
+    _natives: dict[Any, _Native] = field(default_factory=dict)
+    _tied: tuple[Assembly, _Native, Integers] | None = None
 
     def __post_init__(self) -> None:
         self.body = Body(self.program)
-
-    @cached_property
-    def _fixed(self) -> dict[str, Any]:
-        """The tables that are the same for every candidate."""
-        program = self.program
-        senders = program.senders
-        flat = [sender for each in senders for sender in each]
-        return {
-            "kernels": _integers([address_of(part.type) for part in program.model.parts]),
-            "p_at": _begins(program.parameters),
-            "u_at": _begins(program.inputs),
-            "x_at": _begins(program.states),
-            "y_at": _begins(program.outputs),
-            "calls": _integers([(c.part, c.last) for c in program.calls], 2),
-            "updates": _integers(program.updates),
-            "senders": _integers(np.cumsum([0, *(len(each) for each in senders)])),
-            "source": _integers([source for source, _ in flat]),
-            "line": _integers([line for _, line in flat]),
-            "line_source": _integers([line.source for line in program.delays]),
-            "stops": _integers([program.outputs.place(i, "stop") for i in program.stops]),
-            "signals": program.signal_places,
-        }
-
-    def _tables(self, values: Sequence[float]) -> native.Tables:
-        program, steps = self.program, self.program.delay_steps(values)
-        whole, sizes = np.floor(steps), program.capacities(values)
-        states = self.body.initial_states(values)
-        initial = [np.nan if line.initial is None else values[line.initial] for line in program.delays]
-        reads, writes, signs = self._ties()
-        return native.Tables(
-            **self._fixed,
-            base=program.input_base(values),
-            line_begin=_integers(np.cumsum([0, *sizes])[:-1]),
-            line_size=sizes,
-            line_whole=whole.astype(np.int64),
-            line_rest=steps - whole,
-            line_initial=np.array(initial, dtype=np.float64),
-            reads=reads,
-            appliers=_integers(self.body.appliers),
-            writes=writes,
-            signs=signs,
-            initial_place=_integers(list(states)),
-            initial_value=np.array(list(states.values()), dtype=np.float64),
-        )
-
-    def _ties(self) -> tuple[Integers, Integers, Floats]:
-        """Addresses in MuJoCo's data of what is read and written."""
-        program, body = self.program, self.body
-
-        def address(tie: Any) -> int:
-            view = body.array(tie.field)
-            return int(view.ctypes.data + view.itemsize * tie_place(body.model, tie))
-
-        reads = [(address(tie), program.outputs.place(i, tie.port)) for i, tie in body.assembly.reads]
-        writes, signs = [], []
-        for i, tie in body.assembly.applies:
-            of_outputs = tie.port in program.model.parts[i].type.outputs
-            table = program.outputs if of_outputs else program.inputs
-            writes.append((address(tie), of_outputs, table.place(i, tie.port)))
-            signs.append(tie.sign)
-        return _integers(reads, 2), _integers(writes, 3), np.array(signs, dtype=np.float64)
 
     def prepare(self) -> None:
         """Compile or load all native code, and check what only the posed model can tell.
@@ -107,36 +75,97 @@ class Rapid:
         Errors: InvalidComponent, InvalidSpec.
         """
         self.body.check_initial()
-        self.run(self.program.model.values(), 0, recorded=False)
+        self._bound()
 
     def run(self, values: Sequence[float], steps: int, recorded: bool) -> Ending:
         """Simulate one candidate's numbers."""
-        program, body = self.program, self.body
+        record = np.zeros((steps, len(self.program.signals))) if recorded else None
+        reached = self._reach(values, steps, record)
+        failure, stopped_by = None, None
+        if reached.status == native.SUSPECT:
+            failure = self._culprit(values, reached)
+        elif reached.status == native.DIVERGED:
+            failure = self.body.divergence(reached.step)
+        elif reached.status >= native.STOPPED:
+            stopped_by = self.program.stops[reached.status - native.STOPPED]
+        rows = None if record is None else record[: reached.step + (stopped_by is not None)]
+        return Ending(reached.step, stopped_by, failure, reached.tables.p, reached.tables.x, rows)
+
+    def _reach(self, values: Sequence[float], steps: int, record: Floats | None = None) -> _Reached:
+        """Pose and start a candidate, and go on for a number of steps."""
+        body = self.body
         body.pose(values)
         tables = self._tables(values)
-        p = program.parameter_table(values)
-        u, x, y = (np.zeros(layout.size) for layout in (program.inputs, program.states, program.outputs))
-        buffer = np.zeros(int(np.sum(tables.line_size)))
-        record = np.zeros((steps if recorded else 0, len(program.signals)))
-        model, data = body.model, body.data  # held by the call below for as long as it computes
+        code, addresses = self._bound()
+        step = np.zeros(1, dtype=np.int64)
+        # What refers to an array holds it: these must be there for as long as a thread computes in them.
+        held = {
+            "parameters": tables.p,
+            "base": tables.base,
+            "states": tables.x,
+            "outputs": tables.y,
+            "past": tables.past,
+            "whole": tables.whole,
+            "rest": tables.rest,
+            "before": tables.before,
+            "places": tables.places,
+            "values": tables.values,
+            "ties": addresses,
+            "qpos": body.data.qpos,
+            "qvel": body.data.qvel,
+            "reached": step,
+        }
+        given = {word: array.ctypes.data_as(ctypes.c_void_p) for word, array in held.items()}
+        given["record"] = None if record is None else record.ctypes.data_as(ctypes.c_void_p)
+        numbers = {"mask": len(tables.past) - 1, "count": len(tables.places), "first": 0, "steps": steps}
+        given |= numbers | {"dt": self.program.model.simulate.step, "rounds": STARTING_ROUNDS}
+        model, data = body.model, body.data
 
-        def compute() -> tuple[int, int, int, int]:
-            places = model._address, data._address, body.array("qpos"), body.array("qvel")
-            dt = program.model.simulate.step
-            found: tuple[int, int, int, int] = native.simulate(steps, dt, *places, tables, p, u, x, y, buffer, record)
-            return found
+        def compute() -> tuple[bool, int]:
+            if code.start(given):
+                return False, native.SUSPECT
+            return True, code.run(given | {"model": model._address, "data": data._address})
 
         try:
-            status, part, stage, done = interruptible(compute)
+            started, status = interruptible(compute)
         except KeyboardInterrupt:
-            self.body = Body(program)  # the old one is still computed in
+            self.body = Body(self.program)  # the old one is still computed in
             raise
-        failure, stopped_by = None, None
-        if status in (native.RAISED, native.NOT_FINITE):
-            failure = of_component(program, part, _STAGES[stage], done, p, u, x, y)
-        elif status == native.DIVERGED:
-            failure = body.divergence(done)
-        elif status == native.STOPPED:
-            stopped_by = program.part_of_output(part)
-        rows = record[: done + (stopped_by is not None)]
-        return Ending(done, stopped_by, failure, p, x, rows if recorded else None)
+        return _Reached(started, status, int(step[0]), tables)
+
+    def _culprit(self, values: Sequence[float], noticed: _Reached) -> str:
+        """What failed: up to it once more in native code, and then in Python, with every call checked."""
+        try:
+            if not noticed.started:
+                self.body.pose(values)
+                Checked(self.program, self.body, self._tables(values)).start()
+            else:
+                before = self._reach(values, noticed.step)
+                Checked(self.program, self.body, before.tables).step(noticed.step)
+        except Failed as error:
+            return str(error)
+        return of_nothing_found(self.program, noticed.step)
+
+    def _tables(self, values: Sequence[float]) -> Tables:
+        return Tables.of(self.program, values, self.body.initial_states(values))
+
+    def _bound(self) -> tuple[_Native, Integers]:
+        """Native code for the present mechanics, and the addresses in MuJoCo's data that it reads and writes.
+
+        Errors: InvalidComponent.
+        """
+        assembly = self.body.assembly
+        if self._tied is None or self._tied[0] is not assembly:
+            shape = (assembly.reads, assembly.applies, assembly.model.nq, assembly.model.nv)
+            if shape not in self._natives:
+                self._natives[shape] = _Native.of(native.compiled(*plan_of(self.program, assembly)))
+            self._tied = assembly, self._natives[shape], self._addresses()
+        return self._tied[1:]
+
+    def _addresses(self) -> Integers:
+        body, ties = self.body, (*self.body.assembly.reads, *self.body.assembly.applies)
+        arrays = {tie.field: body.array(tie.field) for _, tie in ties}
+        return np.array(
+            [arrays[t.field].ctypes.data + arrays[t.field].itemsize * tie_place(body.model, t) for _, t in ties],
+            dtype=np.int64,
+        )

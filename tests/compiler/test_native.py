@@ -4,16 +4,18 @@ from __future__ import annotations
 
 import ctypes
 import resource
+import subprocess
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
-from numba import types
 
 from gaitsim import cache
-from gaitsim.compiler.native import native
+from gaitsim.compiler import machine
 
-TEXT = "def thrice(x):\n    return 3.0 * x\n"
+TESTS = Path(__file__).parents[1]
+TEXT = "define double @thrice(double %x) {\n  %y = fmul double %x, 3.0\n  ret double %y\n}\n"
 DEAD_END = "so nothing is kept and each run compiles anew; set GAITSIM_CACHE to a folder that can be written"
 
 
@@ -28,8 +30,8 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
 
 
 def thrice(number: float) -> float:
-    address = native("trials", TEXT, "<thrice>", "thrice", types.float64(types.float64)).address
-    return float(ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(address)(number))
+    code = machine.code("trials", "thrice", lambda: machine.object_file(machine.linked(TEXT, []), ["thrice"]))
+    return float(ctypes.CFUNCTYPE(ctypes.c_double, ctypes.c_double)(code.address("thrice"))(number))
 
 
 def said(caplog: pytest.LogCaptureFixture) -> list[str]:
@@ -44,7 +46,7 @@ def test_what_was_compiled_once_is_taken_from_the_cache(
     assert thrice(2.0) == 6.0
     (entry,) = (folder / "trials").iterdir()
     before = entry.stat()
-    monkeypatch.setattr("numba.core.ccallback.CFunc._compile_uncached", None)
+    monkeypatch.setattr(machine, "object_file", None)
     assert thrice(2.0) == 6.0
     assert entry.stat().st_mtime_ns == before.st_mtime_ns
     assert said(caplog) == []
@@ -72,16 +74,6 @@ def test_a_damaged_entry_is_made_again(
     assert said(caplog) == [f"gaitsim: {entry} is damaged; it is made again."]
     assert thrice(2.0) == 6.0
     assert said(caplog) == []
-
-
-def test_an_entry_of_another_make_is_compiled_again(folder: Path, caplog: pytest.LogCaptureFixture) -> None:
-    assert thrice(2.0) == 6.0
-    (entry,) = (folder / "trials").iterdir()
-    cache.keep("trials", entry.name, b"no pickle of ours")
-    assert thrice(2.0) == 6.0
-    assert said(caplog) == [
-        "gaitsim: machine code in the cache cannot be used (UnpicklingError); it is compiled again."
-    ]
 
 
 def test_a_cache_that_is_a_file(folder: Path, caplog: pytest.LogCaptureFixture) -> None:
@@ -118,3 +110,20 @@ def test_a_user_without_a_home(monkeypatch: pytest.MonkeyPatch, caplog: pytest.L
     monkeypatch.setattr(Path, "home", nobody)
     assert [thrice(2.0), thrice(3.0)] == [6.0, 9.0]
     assert said(caplog) == [f"gaitsim: this user has no home folder for a cache, {DEAD_END}."]
+
+
+def test_what_is_kept_needs_no_compiler(folder: Path) -> None:
+    """Neither numba nor what writes LLVM's language is imported by a process that finds all in the cache."""
+    text = """
+import sys
+from simulation.models import OWN, simulator
+outcome = simulator(OWN / "tuned_rod.yaml", [("simulate.duration", "10 ms")]).run()
+assert outcome.status == "completed", outcome.reason
+print(sorted({"numba", "llvmlite.ir", "gaitsim.compiler.translation"} & set(sys.modules)))
+"""
+    imported = []
+    for _ in range(2):
+        done = subprocess.run([sys.executable, "-c", text], cwd=TESTS, capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done.stderr
+        imported.append(done.stdout)
+    assert imported == ["['gaitsim.compiler.translation', 'llvmlite.ir', 'numba']\n", "[]\n"]

@@ -1,0 +1,153 @@
+"""What native code of a program is made from: plain numbers, none of which a candidate changes."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from gaitsim.compiler.kernel import Kernel, kernel_of
+from gaitsim.compiler.mjcf import Assembly
+from gaitsim.compiler.program import Program
+from gaitsim.model import Part
+from gaitsim.parts.primitive import Primitive
+
+
+@dataclass(frozen=True)
+class Piece:
+    """One part in native code: its kernel, where its fields lie in the tables, and how many there are.
+
+    wary: its code might never end on numbers that are not finite, so it must not see any.
+    """
+
+    kernel: str
+    stages: tuple[str, ...]
+    parameters: int
+    inputs: range
+    states: range
+    outputs: range
+    wary: bool
+
+
+@dataclass(frozen=True)
+class Step:
+    """One call of a part's `output`; last: all its inputs are there; always: in every step, not at the start only."""
+
+    piece: int
+    last: bool
+    always: bool
+
+
+@dataclass(frozen=True)
+class Plan:
+    """The pieces, who is called in which order, and what reads what.
+
+    senders: for each input its senders as (output, delay line or -1). constant: inputs that have a number of
+    their own besides. lines: the output that each delay line keeps. signals: what is recorded, a place in the
+    outputs or behind them in the states. reads: an output and whether it may change after the start, for each number
+    read of MuJoCo. writes: (an output? its place, sign) for each number written there. coordinates: how many
+    positions and velocities MuJoCo has.
+    """
+
+    pieces: tuple[Piece, ...]
+    calls: tuple[Step, ...]
+    updates: tuple[int, ...]
+    senders: tuple[tuple[tuple[int, int], ...], ...]
+    constant: tuple[bool, ...]
+    lines: tuple[int, ...]
+    stops: tuple[int, ...]
+    signals: tuple[int, ...]
+    reads: tuple[tuple[int, bool], ...]
+    writes: tuple[tuple[bool, int, float], ...]
+    coordinates: tuple[int, int]
+    states: int
+    outputs: int
+
+
+def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kernel]]:
+    """The plan of a program with its mechanics, and the kernels that it names."""
+    parts = program.model.parts
+    kernels = [kernel_of(part.type) for part in parts]
+    reads = [(program.outputs.place(i, tie.port), tie.field != "userdata") for i, tie in assembly.reads]
+    writes = []
+    for i, tie in assembly.applies:
+        of_outputs = tie.port in parts[i].type.outputs
+        table = program.outputs if of_outputs else program.inputs
+        writes.append((of_outputs, table.place(i, tie.port), tie.sign))
+    fixed = _constant_parts(program, {i for i, tie in assembly.reads if tie.field != "userdata"})
+    pieces = tuple(
+        Piece(
+            kernel.name,
+            tuple(stage for stage in ("start", "output", "update") if stage in part.type.functions),
+            int(program.parameters.offsets[i]),
+            program.inputs.span(i),
+            program.states.span(i),
+            program.outputs.span(i),
+            _has_open_loop(part.type),
+        )
+        for i, (part, kernel) in enumerate(zip(parts, kernels, strict=True))
+    )
+    plan = Plan(
+        pieces,
+        tuple(Step(call.part, call.last, call.part not in fixed) for call in program.calls),
+        program.updates,
+        program.senders,
+        tuple(program.has_base),
+        tuple(line.source for line in program.delays),
+        tuple(program.outputs.place(i, "stop") for i in program.stops),
+        tuple(int(place) for place in program.signal_places),
+        tuple(reads),
+        tuple(writes),
+        (int(assembly.model.nq), int(assembly.model.nv)),
+        program.states.size,
+        program.outputs.size,
+    )
+    return plan, {kernel.name: kernel for kernel in kernels}
+
+
+def _constant_parts(program: Program, moved: set[int]) -> set[int]:
+    """Parts whose outputs stay what they are at the start, so that they are not called again.
+
+    moved: parts with outputs that MuJoCo changes.
+    """
+    found: set[int] = set()
+    for call in program.calls:
+        part = program.model.parts[call.part]
+        if call.last and call.part not in moved and "update" not in part.type.functions:
+            slots = [program.inputs.place(call.part, name) for name in _read(part)]
+            senders = [sender for slot in slots for sender in program.senders[slot]]
+            if all(line < 0 and program.part_of_output(source) in found for source, line in senders):
+                found.add(call.part)
+    return found
+
+
+def _read(part: Part) -> Sequence[str]:
+    """The inputs that a call of `output` depends on; all of them if it might raise."""
+    kind = part.type
+    if "output" not in kind.functions:
+        return ()
+    if kind.outputs and not _may_raise(kind):
+        return [name for name in kind.inputs if any(name in needed for needed in kind.dependencies.values())]
+    return list(kind.inputs)
+
+
+def _may_raise(kind: Primitive) -> bool:
+    return any(isinstance(node, ast.Raise | ast.Assert | ast.Subscript) for node in ast.walk(ast.parse(kind.source)))
+
+
+def _has_open_loop(kind: Primitive) -> bool:
+    """Whether a loop goes on until something is reached, or for a number of times that is computed."""
+    if "while" not in kind.source and "for " not in kind.source:
+        return False
+    for node in ast.walk(ast.parse(kind.source)):
+        if isinstance(node, ast.While):
+            return True
+        if isinstance(node, ast.For) and any(isinstance(inner, ast.Name | ast.Attribute) for inner in _bounds(node)):
+            return True
+    return False
+
+
+def _bounds(loop: ast.For) -> Sequence[ast.AST]:
+    """What is read to know how often a loop runs."""
+    called = loop.iter.args if isinstance(loop.iter, ast.Call) else [loop.iter]
+    return [node for argument in called for node in ast.walk(argument)]

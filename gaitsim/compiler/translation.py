@@ -1,0 +1,319 @@
+"""A plan in LLVM's language: one function that starts a model and one that runs it.
+
+Everything that no candidate changes is a constant there. `simulation/python_loop.py` is the same in plain
+Python, to be read first.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from llvmlite import ir
+
+from gaitsim.compiler.kernel import STAGES
+from gaitsim.compiler.native import COMPLETED, DIVERGED, FRAME, PADDING, RUN, START, STOPPED, SUSPECT, padded
+from gaitsim.compiler.plan import Piece, Plan, Step
+from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, NOTHING, POINTER, SHORT, Writer
+
+# A kernel that more parts than this have is called, not copied for each: its code then stays in the processor's cache.
+_COPIES = 3
+# How many calls of parts make one function: LLVM takes more than twice as long over one twice as long.
+_CHUNK = 64
+
+_LANES = ir.VectorType(DOUBLE, 8)
+_KINDS = {"integer": INTEGER, "number": DOUBLE, "pointer": POINTER, "shared": POINTER}
+_BEGIN = ("dt", "states", "places", "values", "count")
+
+
+@dataclass
+class Translation:
+    plan: Plan
+    text: Any = field(default_factory=lambda: ir.Module("program"))
+    names: dict[str, Any] = field(default_factory=dict)
+
+    def module(self) -> Any:
+        """The whole module; kernels and what MuJoCo has are only declared."""
+        self._finite()
+        self._kept()
+        self._start()
+        self._run()
+        return self.text
+
+    def _function(
+        self, name: str, returns: Any, arguments: Mapping[str, str], exported: bool = False, apart: bool = True
+    ) -> Writer:
+        """A new function; `apart`: no two of its pointers lead to the same number, MuJoCo's aside."""
+        kinds = [_KINDS[kind] for kind in arguments.values()]
+        function = ir.Function(self.text, ir.FunctionType(returns, kinds), name)
+        self.names[name] = function
+        for argument, (word, kind) in zip(function.args, arguments.items(), strict=True):
+            argument.name = word
+            if apart and kind == "pointer":
+                argument.add_attribute("noalias")
+        if not exported:
+            function.linkage = "internal"
+        named = dict(zip(arguments, function.args, strict=True))
+        return Writer(ir.IRBuilder(function.append_basic_block("entry")), named)
+
+    def _external(self, name: str, returns: Any, arguments: Iterable[Any]) -> Any:
+        if name not in self.names:
+            self.names[name] = ir.Function(self.text, ir.FunctionType(returns, list(arguments)), name)
+        return self.names[name]
+
+    # --- checks ---
+
+    def _finite(self) -> None:
+        """Whether all numbers of a table are finite: 0 times each of them is then 0."""
+        f = self._function("finite", FLAG, {"table": "pointer", "count": "integer"})
+        total = f.builder.alloca(DOUBLE)
+        f.builder.store(DOUBLE(0), total)
+        with f.times(f.count) as i:
+            nothing = f.builder.fmul(f.load(f.table, i), DOUBLE(0))
+            f.builder.store(f.builder.fadd(f.builder.load(total, typ=DOUBLE), nothing), total)
+        f.builder.ret(f.builder.fcmp_ordered("==", f.builder.load(total, typ=DOUBLE), DOUBLE(0)))
+
+        g = self._function("finite_padded", FLAG, {"table": "pointer", "count": "integer"})
+        zeros = ir.Constant(_LANES, [0.0] * 8)
+        sums = [g.builder.alloca(_LANES) for _ in range(PADDING // 8)]
+        for each in sums:
+            g.builder.store(zeros, each)
+        with g.times(g.count, PADDING) as i:
+            for lane, each in enumerate(sums):
+                place = g.place(g.table, g.builder.add(i, INTEGER(8 * lane)))
+                nothing = g.builder.fmul(g.builder.load(place, align=8, typ=_LANES), zeros)
+                g.builder.store(g.builder.fadd(g.builder.load(each, typ=_LANES), nothing), each)
+        total = zeros
+        for each in sums:
+            total = g.builder.fadd(total, g.builder.load(each, typ=_LANES))
+        found = FLAG(1)
+        for lane in range(8):
+            number = g.builder.extract_element(total, SHORT(lane))
+            found = g.builder.and_(found, g.builder.fcmp_ordered("==", number, DOUBLE(0)))
+        g.builder.ret(found)
+
+    def _is_finite(self, f: Writer, table: Any, size: int) -> Any:
+        return f.builder.call(self.names["finite"], [table, INTEGER(size)], attrs=("noinline",))
+
+    # --- parts ---
+
+    def _stage(self, f: Writer, index: int, stage: str, scratch: Any, copied: bool) -> Any:
+        """Call one function of a part: whether it raised."""
+        piece = self.plan.pieces[index]
+        attributes = ("alwaysinline",) if copied and self._copies(piece) else ("noinline",)
+        arguments = [*self._own_tables(f, piece, scratch), f.dt]
+        return f.builder.call(self._kernel(piece, stage), arguments, attrs=attributes)
+
+    def _own_tables(self, f: Writer, piece: Piece, scratch: Any) -> list[Any]:
+        """Where a part's own numbers are: p, u, x and y."""
+        return [
+            f.place(f.parameters, piece.parameters),
+            scratch,
+            f.place(f.states, piece.states.start),
+            f.place(f.outputs, piece.outputs.start),
+        ]
+
+    def _copies(self, piece: Piece) -> bool:
+        return sum(other.kernel == piece.kernel for other in self.plan.pieces) <= _COPIES
+
+    def _kernel(self, piece: Piece, stage: str) -> Any:
+        """A kernel's function for one stage: whether it raised."""
+        name = f"{piece.kernel}.{stage}"
+        if name not in self.names:
+            names = ("p", "u", "x", "y")
+            f = self._function(name, FLAG, {**dict.fromkeys(names, "pointer"), "dt": "number"})
+            kinds = [POINTER, POINTER, INTEGER, *[POINTER] * 4, DOUBLE]
+            kernel = self._external(piece.kernel, SHORT, kinds)
+            result, raised = f.builder.alloca(INTEGER), f.builder.alloca(POINTER)
+            f.builder.store(ir.Constant(POINTER, None), raised)
+            tables = [f.arguments[each] for each in names]
+            status = f.builder.call(kernel, [result, raised, INTEGER(STAGES[stage]), *tables, f.dt])
+            f.builder.ret(f.builder.icmp_signed("!=", status, SHORT(0)))
+        return self.names[name]
+
+    def _gather(self, f: Writer, index: int) -> Any:
+        """What arrives at a part's inputs, in a table of its own."""
+        inputs = self.plan.pieces[index].inputs
+        with f.builder.goto_entry_block():
+            scratch = f.builder.alloca(DOUBLE, size=max(1, len(inputs)))
+        for slot in inputs:
+            f.store(self._arriving(f, slot), scratch, slot - inputs.start)
+        return scratch
+
+    def _arriving(self, f: Writer, slot: int) -> Any:
+        """The sum of what arrives at one input."""
+        value = f.load(f.base, slot) if self.plan.constant[slot] else DOUBLE(0)
+        for source, line in self.plan.senders[slot]:
+            sent = f.load(f.outputs, source) if line < 0 else self._delayed(f, line)
+            value = f.builder.fadd(value, sent)
+        return value
+
+    def _delayed(self, f: Writer, line: int) -> Any:
+        """A signal of the past, between the two nearest steps."""
+        b = f.builder
+        newest = b.sub(f.step, f.load(f.whole, line, INTEGER))
+        rest = f.load(f.rest, line)
+        newer, older = (self._kept_at(f, at, line) for at in (newest, b.sub(newest, INTEGER(1))))
+        return b.fadd(b.fmul(b.fsub(DOUBLE(1), rest), newer), b.fmul(rest, older))
+
+    def _kept_at(self, f: Writer, step: Any, line: int) -> Any:
+        return f.load(self._row(f, step), line)
+
+    def _row(self, f: Writer, step: Any) -> Any:
+        place = f.builder.mul(f.builder.and_(step, f.mask), INTEGER(len(self.plan.lines)))
+        return f.place(f.past, place)
+
+    # --- starting ---
+
+    def _start(self) -> None:
+        """Start all parts in rounds, so that what goes in circles is read; whether the last round failed."""
+        f = self._function("start", INTEGER, START, exported=True)
+        f.arguments["step"] = INTEGER(0)
+        for i, (place, _) in enumerate(self.plan.reads):
+            self._read(f, i, place)
+        with f.times(f.rounds) as turn:
+            strict = f.builder.icmp_signed("==", turn, f.builder.sub(f.rounds, INTEGER(1)))
+            for call in self.plan.calls:
+                good = self._begin(f, call)
+                wrong = f.builder.and_(strict, f.builder.not_(good))
+                f.return_if(wrong, INTEGER(SUSPECT))
+            self._fill(f)
+        f.builder.ret(INTEGER(COMPLETED))
+
+    def _begin(self, f: Writer, call: Step) -> Any:
+        """`start` and `output` of a part: whether all is well."""
+        piece, scratch = self.plan.pieces[call.piece], self._gather(f, call.piece)
+        if not call.last:
+            return f.builder.not_(self._stage(f, call.piece, "output", scratch, copied=False))
+        tables = self._own_tables(f, piece, scratch)
+        given = [f.arguments[word] for word in _BEGIN]
+        return f.builder.call(self._beginning(piece), [*tables, *given], attrs=("noinline",))
+
+    def _beginning(self, piece: Piece) -> Any:
+        """How the parts of one kernel begin, up to the first thing that fails; values that a spec gives come last."""
+        name = f"{piece.kernel}.begin"
+        if name not in self.names:
+            words = {**dict.fromkeys("puxy", "pointer"), **{word: START[word] for word in _BEGIN}}
+            f = self._function(name, FLAG, words, apart=False)
+            tables = [f.arguments[word] for word in "puxy"]
+            if "start" in piece.stages:
+                f.return_if(f.builder.call(self._kernel(piece, "start"), [*tables, f.dt]), FLAG(0))
+            with f.times(f.count) as i:
+                f.store(f.load(f.values, i), f.states, f.load(f.places, i, INTEGER))
+            f.return_if(f.builder.not_(self._is_finite(f, f.x, len(piece.states))), FLAG(0))
+            if "output" in piece.stages:
+                f.return_if(f.builder.call(self._kernel(piece, "output"), [*tables, f.dt]), FLAG(0))
+            f.builder.ret(self._is_finite(f, f.y, len(piece.outputs)))
+        return self.names[name]
+
+    def _fill(self, f: Writer) -> None:
+        """Before the start, a delayed signal was what it is at the start."""
+        b = f.builder
+        for line, source in enumerate(self.plan.lines):
+            given = f.load(f.before, line)
+            sent = b.select(b.fcmp_unordered("uno", given, given), f.load(f.outputs, source), given)
+            f.store(sent, f.past, line)
+        numbers = INTEGER(len(self.plan.lines))
+        with f.times(b.mul(b.add(f.mask, INTEGER(1)), numbers), first=len(self.plan.lines)) as place:
+            f.store(f.load(f.past, b.sub(place, numbers)), f.past, place)
+
+    def _read(self, f: Writer, tie: int, place: int) -> None:
+        address = f.load(f.ties, tie, POINTER)
+        f.store(f.load(address, 0), f.outputs, place)
+
+    # --- running ---
+
+    def _run(self) -> None:
+        """Steps from `first` on, until `steps` are done or something ends the run in the step `reached`."""
+        f = self._function("run", INTEGER, RUN, exported=True)
+        b = f.builder
+        entry, loop, done = b.block, b.append_basic_block("step"), b.append_basic_block("done")
+        b.cbranch(b.icmp_signed("<", f.first, f.steps), loop, done)
+        b.position_at_end(loop)
+        step = b.phi(INTEGER)
+        step.add_incoming(f.first, entry)
+        f.arguments["step"] = step
+        self._one_step(f)
+        following = b.add(step, INTEGER(1))
+        step.add_incoming(following, b.block)
+        b.cbranch(b.icmp_signed("<", following, f.steps), loop, done)
+        b.position_at_end(done)
+        b.store(f.steps, f.reached)
+        b.ret(INTEGER(COMPLETED))
+
+    def _one_step(self, f: Writer) -> None:
+        b, plan = f.builder, self.plan
+        mechanics = [self._external(n, NOTHING, [POINTER, POINTER]) for n in ("mj_step1", "mj_step2")]
+        b.call(mechanics[0], [f.model, f.data])
+        for i, (place, moves) in enumerate(plan.reads):
+            if moves:
+                self._read(f, i, place)
+        self._called(f, "outputs", [(call.piece, "output") for call in plan.calls if call.always])
+        self._end_unless(f, self._table_is_finite(f, f.outputs, plan.outputs), SUSPECT)
+        for i, (of_outputs, place, sign) in enumerate(plan.writes, len(plan.reads)):
+            value = f.load(f.outputs, place) if of_outputs else self._arriving(f, place)
+            b.store(b.fmul(value, DOUBLE(sign)), f.load(f.ties, i, POINTER))
+        row = self._row(f, f.step)
+        for line, source in enumerate(plan.lines):
+            f.store(f.load(f.outputs, source), row, line)
+        self._record(f)
+        for i, place in enumerate(plan.stops):
+            running = b.fcmp_ordered("<=", f.load(f.outputs, place), DOUBLE(0.5))
+            self._end_unless(f, running, STOPPED + i)
+        self._called(f, "updates", [(part, "update") for part in plan.updates])
+        self._end_unless(f, self._table_is_finite(f, f.states, plan.states), SUSPECT)
+        b.call(mechanics[1], [f.model, f.data])
+        tables = zip((f.qpos, f.qvel), plan.coordinates, strict=True)
+        finite = [self._is_finite(f, table, size) for table, size in tables]
+        self._end_unless(f, b.and_(*finite), DIVERGED)
+
+    def _table_is_finite(self, f: Writer, table: Any, size: int) -> Any:
+        return f.builder.call(self.names["finite_padded"], [table, INTEGER(padded(size))])
+
+    def _end_unless(self, f: Writer, good: Any, status: int) -> None:
+        with f.builder.if_then(f.builder.not_(good), likely=False):
+            f.builder.store(f.step, f.reached)
+            f.builder.ret(INTEGER(status))
+
+    def _called(self, f: Writer, name: str, calls: list[tuple[int, str]]) -> None:
+        """Call functions of parts in order, some to a native function; a raise ends the step."""
+        for number, begin in enumerate(range(0, len(calls), _CHUNK)):
+            inner = self._function(f"{name}.{number}", FLAG, FRAME)
+            for index, stage in calls[begin : begin + _CHUNK]:
+                scratch = self._gather(inner, index)
+                piece = self.plan.pieces[index]
+                if piece.wary:
+                    good = self._is_finite(inner, scratch, len(piece.inputs))
+                    inner.return_if(inner.builder.not_(good), FLAG(0))
+                inner.return_if(self._stage(inner, index, stage, scratch, copied=True), FLAG(0))
+            inner.builder.ret(FLAG(1))
+            arguments = [f.arguments[word] for word in FRAME]
+            self._end_unless(f, f.builder.call(self.names[f"{name}.{number}"], arguments), SUSPECT)
+
+    # --- records ---
+
+    def _kept(self) -> None:
+        """Copy numbers of a table into a row: pairs of where to and where from."""
+        arguments = {**dict.fromkeys(("row", "table", "pairs"), "pointer"), "count": "integer"}
+        f = self._function("kept", NOTHING, arguments)
+        with f.times(f.count) as i:
+            pair = f.place(f.pairs, f.builder.mul(i, INTEGER(2)), INTEGER)
+            value = f.load(f.table, f.load(pair, 1, INTEGER))
+            f.store(value, f.row, f.load(pair, 0, INTEGER))
+        f.builder.ret_void()
+
+    def _record(self, f: Writer) -> None:
+        b, signals, size = f.builder, list(enumerate(self.plan.signals)), self.plan.outputs
+        wanted = b.icmp_unsigned("!=", f.record, ir.Constant(POINTER, None))
+        with b.if_then(wanted, likely=False):
+            row = f.place(f.record, b.mul(f.step, INTEGER(len(signals))))
+            self._keep(f, row, f.outputs, [(i, place) for i, place in signals if place < size])
+            self._keep(f, row, f.states, [(i, place - size) for i, place in signals if place >= size])
+
+    def _keep(self, f: Writer, row: Any, table: Any, pairs: list[tuple[int, int]]) -> None:
+        kind = ir.ArrayType(INTEGER, 2 * len(pairs))
+        constant = ir.GlobalVariable(self.text, kind, self.text.get_unique_name("pairs"))
+        constant.linkage, constant.global_constant = "internal", True
+        constant.initializer = ir.Constant(kind, [number for pair in pairs for number in pair])
+        f.builder.call(self.names["kept"], [row, table, constant, INTEGER(len(pairs))])
