@@ -119,8 +119,8 @@ CASES = {
         "IndexError: index 3 is out of bounds for axis 0 with size 3",
     ),
     "start": (
-        {"START": "math.log(0 * p.after)"},
-        "trial (controller/trial) gives no finite number in start at 0 s: last = -inf",
+        {"START": "math.sqrt(999 - p.after)"},
+        "trial (controller/trial) gives no finite number in start at 0 s: last = nan",
     ),
     "raise in start": (
         {"START": "failing(p.after, p.after)"},
