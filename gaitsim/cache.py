@@ -43,7 +43,7 @@ def keep(kind: str, key: str, data: bytes) -> None:
     """Write an entry as a whole, over one that is there."""
     path = _path(kind, key)
     if path is None:
-        tell_once(f"this user has no home folder for a cache, {_REMEDY}.")
+        tell_once(f"there is no absolute path to a cache folder, {_REMEDY}.")
         return
     try:
         path.parent.mkdir(parents=True, exist_ok=True)

@@ -56,6 +56,17 @@ class Fault:
         return ": ".join([*place, *address, self.message]) + (self.mark.frame if self.mark else "")
 
 
+_LONGEST = 200  # letters of one word or value that a message repeats
+
+
+def shortened(text: str) -> str:
+    """A text as a message can repeat it: without what is in the middle of a long one."""
+    if len(text) <= _LONGEST:
+        return text
+    half = _LONGEST // 2
+    return f"{text[:half]} ... ({len(text) - 2 * half} letters) ... {text[-half:]}"
+
+
 class GaitsimError(Exception):
     """A mistake of the user or of the world around; never a bug of gaitsim."""
 

@@ -1,4 +1,7 @@
-"""The user's own folders: a cache of what can be made again, and what gaitsim must remember."""
+"""The user's own folders: a cache of what can be made again, and what gaitsim must remember.
+
+Both hold what decides which code runs, so neither is ever looked for from the current folder.
+"""
 
 from __future__ import annotations
 
@@ -7,20 +10,17 @@ from pathlib import Path
 
 
 def cache_folder() -> Path | None:
-    """$GAITSIM_CACHE, or gaitsim's folder in the user's cache; None where the user has no home."""
-    return _own("GAITSIM_CACHE") or _below("XDG_CACHE_HOME", ".cache")
+    """$GAITSIM_CACHE, or gaitsim's folder in the user's cache; None where there is no absolute path to it."""
+    if own := os.environ.get("GAITSIM_CACHE"):
+        return _absolute(own)
+    return _below("XDG_CACHE_HOME", ".cache")
 
 
 def state_folder() -> Path | None:
-    """The folder gaitsim in $GAITSIM_STATE or in the user's state; None where the user has no home."""
-    named = _own("GAITSIM_STATE")
-    return named / "gaitsim" if named else _below("XDG_STATE_HOME", ".local/state")
-
-
-def _own(variable: str) -> Path | None:
-    """The folder that a variable of ours names."""
-    said = os.environ.get(variable)
-    return Path(said).absolute() if said else None
+    """The folder gaitsim in $GAITSIM_STATE, or in the user's state; None where there is no absolute path to it."""
+    if own := os.environ.get("GAITSIM_STATE"):
+        return _absolute(f"{own}/gaitsim")
+    return _below("XDG_STATE_HOME", ".local/state")
 
 
 def _below(variable: str, usual: str) -> Path | None:
@@ -29,7 +29,10 @@ def _below(variable: str, usual: str) -> Path | None:
     if said.is_absolute():
         return said / "gaitsim"
     try:
-        home = Path.home()
+        return _absolute(f"{Path.home()}/{usual}/gaitsim")
     except RuntimeError:  # neither $HOME nor an entry in the list of users
         return None
-    return home / usual / "gaitsim" if home.is_absolute() else None
+
+
+def _absolute(said: str) -> Path | None:
+    return Path(said) if Path(said).is_absolute() else None

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +13,16 @@ from gaitsim.cli.tuning import Tuning
 from gaitsim.errors import Fault, InvalidSpec, Mark, Usage, did_you_mean
 from gaitsim.optimization.algorithms import ALGORITHMS
 from gaitsim.optimization.journal import old_form_notices, read
-from gaitsim.results.bundle import SPEC, START, Bundle, bundle_model, read_bundle
+from gaitsim.results.bundle import SPEC, START, Bundle
 from gaitsim.results.episodes import episode_models
-from gaitsim.results.manifest import BadResult, changed_versions, is_result, new_manifest, read_manifest
+from gaitsim.results.manifest import (
+    BadResult,
+    changed_versions,
+    is_result,
+    new_manifest,
+    read_result,
+    recorded_manifest,
+)
 from gaitsim.results.source import Source
 from gaitsim.results.store import create_result
 from gaitsim.results.trust import check_trust
@@ -78,6 +84,7 @@ def begun(request: Request, root: Path) -> Tuning:
     told = {"spec": str(request.spec), "search": search, "smoke": request.smoke, "notices": notices}
     manifest = new_manifest("optimize", bundle, mode, **told)
     folder = create_result(root, bundle, model, simulator.xml, manifest, {"evaluations.jsonl": ""})
+    bundle = replace(bundle, folder=folder)
     return Tuning(folder, manifest, bundle, model, [*model.notices, *starts.warnings, *notices])
 
 
@@ -88,7 +95,7 @@ def resumed(request: Request, root: Path) -> Tuning:
     """
     _check_beside_resume(request)
     folder = request.spec if is_result(request.spec) else _newest(request.spec, root)
-    manifest = read_manifest(folder)
+    manifest, bundle = read_result(folder)
     if manifest["kind"] != "optimize":
         raise BadResult(f"{folder}: this is the result of a run; only a search can be resumed.")
     search = _recorded_search(folder, manifest)
@@ -96,8 +103,7 @@ def resumed(request: Request, root: Path) -> Tuning:
     if changed:
         rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
         raise BadResult(f"{folder}: {rule}; install those, or start a new search with --from {folder}.")
-    check_trust(folder, request.trust)
-    bundle = read_bundle(folder, str(manifest["name"]))
+    check_trust(bundle, request.trust)
     if not is_result(request.spec):
         _check_same_spec(request, folder, bundle)
     _check_same_search(request, search, str(manifest["mode"]))
@@ -105,9 +111,8 @@ def resumed(request: Request, root: Path) -> Tuning:
     if request.generations is not None and request.generations < done:
         raise Usage(f"--generations {request.generations}: {folder} has {done} generations already; ask for more.")
     search["generations"] = request.generations or search["generations"]
-    model = bundle_model(folder, bundle.name)
     notices = [f"resuming {folder}", *old_form_notices(folder)]
-    return Tuning(folder, manifest | {"search": search}, bundle, model, notices)
+    return Tuning(folder, manifest | {"search": search}, bundle, bundle.model(), notices)
 
 
 def _check_beside_resume(request: Request) -> None:
@@ -171,11 +176,11 @@ def _newest(spec: Path, root: Path) -> Path:
     trials: list[tuple[str, float, Path]] = []
     for path in root.glob(f"*-{spec.stem}-*/manifest.json"):
         try:
-            manifest = json.loads(path.read_text(encoding="utf-8"))
+            manifest = recorded_manifest(path.parent)
             if manifest["kind"] == "optimize" and manifest["name"] == spec.stem and path.parent.suffix != ".partial":
-                place = (str(manifest["created"]), path.stat().st_mtime, path.parent)
+                place = (manifest["created"], path.stat().st_mtime, path.parent)
                 (trials if manifest.get("smoke") else found).append(place)
-        except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        except (OSError, BadResult):
             continue
     if found:
         return max(found)[2]

@@ -56,10 +56,14 @@ class ModeName(StrEnum):
 def open_library(spec: Path | None, folders: list[Path] | None) -> Library:
     """The components that a spec can use.
 
-    Errors: Usage if a folder is missing.
+    Errors: Usage if a folder is missing, or if the spec is the copy that a result holds.
     """
     from gaitsim.errors import Usage
     from gaitsim.parts.find import Library, library_folders
+
+    if spec is not None and spec.name == "spec.yaml" and (spec.parent / "manifest.json").is_file():
+        rule = "this is the spec of a result, and its components are run with that only"
+        raise Usage(f"{spec}: {rule}; name the result, {spec.parent}, or copy the file to a folder of your own.")
 
     for folder in folders or []:
         if not folder.is_dir():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json as json_text
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -75,16 +74,16 @@ def verify(
     Example: gaitsim results verify results/2026-11-22-hopping-3f9c
     """
     from gaitsim.optimization.journal import old_form_notices
-    from gaitsim.results.manifest import changed_versions, read_manifest
+    from gaitsim.results.manifest import changed_versions, read_result
     from gaitsim.results.trust import check_trust
     from gaitsim.results.verify import verified
 
-    manifest = read_manifest(folder)
-    check_trust(folder, trust)
+    manifest, bundle = read_result(folder)
+    check_trust(bundle, trust)
     changed = changed_versions(manifest)
     for notice in old_form_notices(folder) if manifest["kind"] == "optimize" else ():
         console.say(notice)
-    checks = list(verified(folder, manifest, everything))
+    checks = list(verified(bundle, manifest, everything))
     wrong = [check for check in checks if check.differs]
     if changed:
         console.say(f"other versions than when it was made: {', '.join(changed)}")
@@ -100,15 +99,12 @@ def verify(
 
 
 def _summary(folder: Path) -> dict[str, Any]:
-    from gaitsim.results.lock import state_of
+    """A result in the list; one whose manifest cannot be read is there too, as damaged."""
+    from gaitsim.results.manifest import BadResult, recorded_manifest
 
     try:
-        manifest = json_text.loads((folder / "manifest.json").read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        manifest = {}
-    manifest = manifest if isinstance(manifest, dict) else {}
+        manifest = recorded_manifest(folder)
+    except BadResult:
+        manifest = {"kind": "?", "status": "damaged", "created": ""}
     keys = ("kind", "status", "best_score", "evaluations", "created")
-    known = {key: manifest.get(key) for key in keys}
-    status = state_of(folder, str(known["status"] or "damaged"))
-    damaged = {"kind": known["kind"] or "?", "status": status, "created": known["created"] or ""}
-    return {"result": str(folder), **known, **damaged}
+    return {"result": str(folder), **{key: manifest.get(key) for key in keys}}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import socket
-import tempfile
 import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
@@ -18,7 +17,7 @@ from gaitsim.simulation.run import Mode
 
 @dataclass(frozen=True)
 class Bench:
-    """The episodes of a candidate, and the folder that their spec and components were read from."""
+    """The episodes of a candidate, and the folder where errors say that their spec and components lie."""
 
     episodes: Episodes
     folder: Path
@@ -27,7 +26,7 @@ class Bench:
         """What the journal keeps of a candidate; its reason names files within the bundle, wherever that lies."""
         found = self.episodes.verdict(x)
         reason = found.reason
-        for folder in (str(self.folder), shown(self.folder)):
+        for folder in {str(self.folder), shown(self.folder)} - {"."}:
             reason = reason.replace(f"{folder}/", "")
         return replace(found, reason=reason)
 
@@ -37,16 +36,13 @@ _benches: dict[tuple[str, str], Bench] = {}
 
 
 def bench_of(bundle: Bundle, mode: Mode) -> Bench:
-    """The bench of a bundle, made from the bundle's own files and nothing else.
+    """The bench of a bundle, made from the bundle's own texts and nothing else.
 
     Errors: InvalidSpec, InvalidComponent.
     """
     key = (bundle.digest, mode)
     if key not in _benches:
-        with tempfile.TemporaryDirectory(prefix="gaitsim-") as name:
-            folder = Path(name)
-            bundle.write(folder)
-            _benches[key] = Bench(bundle_episodes(folder, bundle.name, mode), folder)
+        _benches[key] = Bench(bundle_episodes(bundle, mode), bundle.folder)
     return _benches[key]
 
 

@@ -27,7 +27,11 @@ _SAID = {Parameter: "a parameter", Input: "an input", State: "a state", Output: 
 _SAID |= {Metric: "a metric", Points: "a list of points", Option: "an option", Series: "a series"}
 _READ_ONLY = {"p": "parameters are read only.", "u": "inputs are read only."}
 _WRITERS = {"x": ("start", "update"), "y": ("output",), "m": ("finish",)}
-_FORBIDDEN = {"open", "exec", "eval", "__import__"}
+_FORBIDDEN = {"open", "exec", "eval", "compile", "input", "getattr", "setattr", "delattr", "vars", "globals", "locals"}
+_FORBIDDEN |= {"dir", "type", "object", "super", "memoryview", "help"}
+# Attributes that lead from a generator, a function or an array to other code, or to files.
+_INSIDES = {"gi_frame", "gi_code", "f_back", "f_builtins", "f_globals", "f_locals", "tb_frame", "tb_next", "ctypes"}
+_INSIDES |= {"tofile", "dump", "with_traceback", "mro"}
 # numba compiles these; breakpoint only runs in plain Python, which is what it is for.
 _BUILTINS = {"abs", "min", "max", "range", "int", "float", "len", "bool", "round", "print"}
 _BUILTINS |= {"breakpoint", "ValueError", "ArithmeticError", "OverflowError", "RuntimeError"}
@@ -103,17 +107,34 @@ def parse(source: str, file: str) -> ast.Module:
                 "write `import math` or `from gaitsim.component import ...`.",
                 mark,
             )
-        elif isinstance(inner, ast.Name) and inner.id in _FORBIDDEN:
-            mark = place(file, lines, inner.lineno, inner.col_offset)
-            faults.add(f"{inner.id} may not be used in a component file.", mark)
+        elif word := _forbidden(inner):
+            mark = place(file, lines, getattr(inner, "lineno", 1), getattr(inner, "col_offset", 0))
+            faults.add(f"{word} may not be used in a component file.", mark)
     faults.raise_if_any(InvalidComponent)
     return tree
+
+
+def _forbidden(node: ast.AST) -> str:
+    """What a node names that a component file has no use for: ways to files, and to what Python is made of."""
+    if isinstance(node, ast.Name) and node.id in _FORBIDDEN:
+        return node.id
+    if isinstance(node, ast.Attribute) and node.attr in _INSIDES:
+        return f".{node.attr}"
+    if isinstance(node, ast.Import | ast.ImportFrom):
+        return ""
+    for value in (value for _, value in ast.iter_fields(node)):
+        for word in value if isinstance(value, list) else (value,):
+            # Strings of the syntax tree are names, but for those of constants.
+            if isinstance(word, str) and word.startswith("__") and not isinstance(node, ast.Constant):
+                return word
+    return ""
 
 
 def _may_import(node: ast.Import | ast.ImportFrom) -> bool:
     if isinstance(node, ast.Import):
         return all(alias.name == "math" and alias.asname is None for alias in node.names)
-    return node.level == 0 and node.module in ("gaitsim.component", "__future__")
+    public = all(not alias.name.startswith("_") and not (alias.asname or "").startswith("__") for alias in node.names)
+    return node.level == 0 and public and node.module in ("gaitsim.component", "__future__")
 
 
 def check_names(

@@ -9,7 +9,7 @@ from gaitsim.component import Parameter
 from gaitsim.errors import Faults, Mark
 from gaitsim.parts.load import as_lines, digest_of
 from gaitsim.parts.primitive import Primitive
-from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, parse, text_of
+from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, parse
 from gaitsim.spec.quantity import number_with_unit, said, unknown_unit
 from gaitsim.spec.spelling import respelled
 from gaitsim.units import UnknownUnit, parse_unit
@@ -62,13 +62,12 @@ class Composite:
 ComponentFile = Primitive | Composite
 
 
-def load_composite(reference: str, path: Path, shown: str) -> Composite:
-    """Load a composite file.
+def load_composite(reference: str, path: Path, shown: str, text: str) -> Composite:
+    """The composite that a text holds; `path` is where it lies, and `shown` how errors name that.
 
     Errors: InvalidSpec with every fault of the file's own grammar.
     """
     faults = Faults()
-    text = text_of(path, shown, "component")
     document = respelled(parse(text, shown), _SECTIONS, "a composite has no section", faults)
     sections = {name: _mapping(document, name, faults) for name in _SECTIONS if name != "about"}
     if not sections["parts"].entries:

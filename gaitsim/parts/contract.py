@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from gaitsim.errors import Fault, Faults, Mark
 from gaitsim.parts.check import declaration_marks, parse
 from gaitsim.parts.composite import ComponentFile, Composite
-from gaitsim.spec.document import Mapping, Node, plain, read
+from gaitsim.spec.document import Mapping, Node, plain
+from gaitsim.spec.document import parse as parse_document
 from gaitsim.spec.quantity import said, unknown_unit
 from gaitsim.spec.spelling import respelled
 from gaitsim.units import UnknownUnit, parse_unit
@@ -15,12 +14,12 @@ from gaitsim.units import UnknownUnit, parse_unit
 _SECTIONS = ("inputs", "outputs", "parameters", "metrics")
 
 
-def kind_faults(component: ComponentFile, contract: Path, file: str, named: str = "") -> list[Fault]:
-    """What a component lacks of its kind's common ports and parameters; `named` is how errors name the contract.
+def kind_faults(component: ComponentFile, contract: str, file: str, named: str) -> list[Fault]:
+    """What a component lacks of its kind's common ports and parameters.
 
+    contract: the text of kind.yaml; named: how errors name it.
     Errors: InvalidSpec if the contract itself breaks a rule.
     """
-    named = named or str(contract)
     faults = []
     for section, units in read_contract(contract, named).items():
         offered = _offered(component, section)
@@ -36,13 +35,13 @@ def kind_faults(component: ComponentFile, contract: Path, file: str, named: str 
     return faults
 
 
-def read_contract(path: Path, named: str) -> dict[str, dict[str, str]]:
+def read_contract(text: str, named: str) -> dict[str, dict[str, str]]:
     """What a kind.yaml asks for: names and units by section.
 
     Errors: InvalidSpec if it breaks a rule.
     """
     faults = Faults()
-    document = respelled(read(path, named), ("about", *_SECTIONS), "a kind has no section", faults)
+    document = respelled(parse_document(text, named), ("about", *_SECTIONS), "a kind has no section", faults)
     found: dict[str, dict[str, str]] = {}
     for section in _SECTIONS:
         wanted = document.entries.get(section, Mapping({}, {}, document.mark))

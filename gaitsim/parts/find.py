@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from gaitsim.parts.load import as_lines, digest_of, load_primitive
 from gaitsim.parts.table import Table, load_table
 from gaitsim.spec.document import text_of
 
-_LOADERS: dict[str, Callable[[str, Path, str], ComponentFile]] = {
+_LOADERS: dict[str, Callable[[str, Path, str, str], ComponentFile]] = {
     ".py": load_primitive,
     ".yaml": load_composite,
 }
@@ -52,9 +52,13 @@ def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path
 
 @dataclass
 class Library:
-    """Components by reference, each loaded once."""
+    """Components by reference, each loaded once.
+
+    texts: All files of the folders, of a library that was read before; nothing is then read again.
+    """
 
     folders: tuple[Path, ...]
+    texts: Mapping[Path, str] | None = None
     notices: list[str] = field(default_factory=list)
     _loaded: dict[str, ComponentFile] = field(default_factory=dict)
     _tables: dict[str, Table] = field(default_factory=dict)
@@ -76,7 +80,7 @@ class Library:
             f"{path.parent.name}/{path.stem}"
             for folder in self.folders
             for suffix in _LOADERS
-            for path in folder.glob(f"{kind}/*{suffix}")
+            for path in self._matching(folder, kind, suffix)
             if is_component(path)
         }
         return sorted(found)
@@ -95,19 +99,22 @@ class Library:
         Errors: InvalidSpec.
         """
         if reference not in self._tables:
-            paths = {f"{p.parent.name}/{p.stem}": p for f in reversed(self.folders) for p in sorted(f.glob("*/*.csv"))}
+            tables = (p for folder in reversed(self.folders) for p in self._matching(folder, "*", ".csv"))
+            paths = {f"{p.parent.name}/{p.stem}": p for p in tables}
             if reference not in paths:
                 raise InvalidSpec(Fault(f"there is no table {reference}. {did_you_mean(reference, paths)}"))
-            self._tables[reference] = load_table(paths[reference], shown(paths[reference]))
+            path = paths[reference]
+            self._tables[reference] = load_table(path, shown(path), self._text(path, "table"))
         return self._tables[reference]
 
     def used_tables(self) -> dict[str, Table]:
         """The tables that have been read, by reference."""
         return dict(sorted(self._tables.items()))
 
-    def kind_file(self, kind: str) -> Path | None:
-        """The contract of a kind, if there is one."""
-        return next((f / kind / KIND for f in self.folders if (f / kind / KIND).is_file()), None)
+    def contract(self, kind: str) -> tuple[Path, str] | None:
+        """The contract of a kind, if there is one: its file and what that says. Errors: InvalidSpec."""
+        path = next((f / kind / KIND for f in self.folders if self._has(f / kind / KIND)), None)
+        return (path, self._text(path, "contract")) if path else None
 
     def _load(self, reference: str) -> ComponentFile:
         files = self._files(reference)
@@ -118,13 +125,13 @@ class Library:
         if len(twins) > 1:
             both = " and ".join(shown(f) for f in twins)
             raise InvalidSpec(Fault(f"{reference} is both {both}; remove one of them."))
-        loaded = _LOADERS[path.suffix](reference, path, shown(path))
-        contract = self.kind_file(loaded.kind)
-        faults = kind_faults(loaded, contract, shown(path), shown(contract)) if contract else []
+        loaded = _LOADERS[path.suffix](reference, path, shown(path), self._text(path, "component"))
+        contract = self.contract(loaded.kind)
+        faults = kind_faults(loaded, contract[1], shown(path), shown(contract[0])) if contract else []
         if faults:
             raise InvalidSpec(faults)
         for hidden in files[1:]:
-            if _digest(hidden) != loaded.digest:
+            if digest_of(as_lines(self._text(hidden, "component"))) != loaded.digest:
                 self.notices.append(f"{shown(path)} hides {shown(hidden)}")
         return loaded
 
@@ -133,7 +140,23 @@ class Library:
         if not (kind.isidentifier() and name.isidentifier()):
             return []
         paths = [folder / kind / f"{name}{suffix}" for folder in self.folders for suffix in _LOADERS]
-        return [path for path in paths if path.is_file()]
+        return [path for path in paths if self._has(path)]
+
+    def _has(self, path: Path) -> bool:
+        return path.is_file() if self.texts is None else path in self.texts
+
+    def _text(self, path: Path, what: str) -> str:
+        return text_of(path, shown(path), what) if self.texts is None else self.texts[path]
+
+    def _matching(self, folder: Path, kind: str, suffix: str) -> list[Path]:
+        """The files of a kind, or of all kinds (*), with a suffix."""
+        if self.texts is None:
+            return sorted(folder.glob(f"{kind}/*{suffix}"))
+        return sorted(
+            path
+            for path in self.texts
+            if path.parent.parent == folder and kind in ("*", path.parent.name) and path.suffix == suffix
+        )
 
     def kinds(self) -> set[str]:
         """Every kind that has a component."""
@@ -151,10 +174,6 @@ class Library:
         near = nearest(name, [known.partition("/")[2] for known in self.references(kind)])
         hint = f"Did you mean {kind}/{near}?" if near else did_you_mean("", self.references(kind))
         return f"there is no component {reference}. {hint}"
-
-
-def _digest(path: Path) -> str:
-    return digest_of(as_lines(text_of(path, shown(path), "component")))
 
 
 def shown(path: Path) -> str:

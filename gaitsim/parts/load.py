@@ -18,7 +18,6 @@ from gaitsim.parts.check import check_names, declaration_marks, parse
 from gaitsim.parts.dependency import output_dependencies
 from gaitsim.parts.ieee import ieee_math
 from gaitsim.parts.primitive import Primitive
-from gaitsim.spec.document import text_of
 from gaitsim.spec.expression import BadExpression, parse_expression
 
 FUNCTIONS = ("start", "output", "update", "finish", "build")
@@ -34,12 +33,12 @@ def as_lines(text: str) -> str:
     return io.StringIO(text, newline=None).read()
 
 
-def load_primitive(reference: str, path: Path, shown: str) -> Primitive:
-    """Load a component file; `shown` is how errors name it.
+def load_primitive(reference: str, path: Path, shown: str, text: str) -> Primitive:
+    """The component that a text holds; `path` is where it lies, and `shown` how errors name that.
 
     Errors: InvalidComponent with every fault of the file.
     """
-    source = as_lines(text_of(path, shown, "component"))
+    source = as_lines(text)
     dependencies = sound_dependencies(source)
     if dependencies is None:
         tree = parse(source, shown)

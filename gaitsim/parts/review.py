@@ -57,7 +57,7 @@ def _of_primitive(found: Primitive, keys: set[str], library: Library) -> Iterato
     for line in audit(found.source, found.shown).unreached:
         place = Mark(found.shown, line, 1, lines[line - 1])
         yield Fault("no path leads here, so its units were not checked; remove it, or a condition before it.", place)
-    if library.kind_file(found.kind) is None:
+    if library.contract(found.kind) is None:
         move = f"write {found.path.parent.name}/kind.yaml with about:, or choose a kind that exists"
         yield Fault(f"the kind {found.kind} has no contract; {move}.", marks[""])
 

@@ -10,7 +10,7 @@ from gaitsim.errors import Usage, did_you_mean
 from gaitsim.parts.composite import Composite
 from gaitsim.parts.contract import read_contract
 from gaitsim.parts.find import KIND, SKELETON, Library, shown
-from gaitsim.spec.document import plain, read
+from gaitsim.spec.document import parse, plain
 
 _CLASS = re.compile(r"^class \w+\(", re.MULTILINE)
 _TEST = '''"""{reference} on plain numbers, without a model around it."""
@@ -70,9 +70,9 @@ def new_component(kind: str, name: str, library: Library, like: str | None = Non
     skeleton = next((f / kind / SKELETON for f in library.folders if (f / kind / SKELETON).is_file()), None)
     if skeleton is not None:
         return f"{name}.py", _CLASS.sub(f"class {class_name}(", skeleton.read_text(encoding="utf-8"), count=1)
-    contract = library.kind_file(kind)
+    contract = library.contract(kind)
     assert contract is not None
-    return f"{name}.py", _from_contract(class_name, contract)
+    return f"{name}.py", _from_contract(class_name, *contract)
 
 
 def test_of(kind: str, name: str) -> str:
@@ -81,7 +81,7 @@ def test_of(kind: str, name: str) -> str:
 
 
 def _check_name(kind: str, name: str, library: Library) -> None:
-    if library.kind_file(kind) is None:
+    if library.contract(kind) is None:
         move = f"for a kind of your own, write components/{kind}/{KIND} first"
         raise Usage(f"there is no kind {kind}. {did_you_mean(kind, library.kinds())} Or, {move}.")
     if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or keyword.iskeyword(name) or f"{name}.yaml" == KIND:
@@ -91,10 +91,10 @@ def _check_name(kind: str, name: str, library: Library) -> None:
         raise Usage(f"{kind}/{name} is there already ({shown(known)}); choose another name.")
 
 
-def _from_contract(class_name: str, contract: Path) -> str:
+def _from_contract(class_name: str, contract: Path, text: str) -> str:
     """A component that has all that its kind asks for, and does nothing yet."""
-    asked = read_contract(contract, shown(contract))
-    about = str(plain(read(contract)).get("about", "Write here what it computes."))
+    asked = read_contract(text, shown(contract))
+    about = str(plain(parse(text, shown(contract))).get("about", "Write here what it computes."))
     lines = [
         *(f'    {n} = Parameter("{u}", "{_words(n)}.", bounds=(0, 1e6))' for n, u in asked["parameters"].items()),
         *(f'    {n} = Input("{u}", "{_words(n)}.")' for n, u in asked["inputs"].items()),

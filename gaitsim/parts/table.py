@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark
 from gaitsim.parts.load import as_lines
-from gaitsim.spec.document import text_of
 from gaitsim.units import UnknownUnit, parse_unit
 
 Floats = NDArray[np.float64]
@@ -53,9 +52,9 @@ class Table:
         return resampled(self.over, self.columns[column], count)
 
 
-def load_table(path: Path, shown: str) -> Table:
-    """Read a table. Errors: InvalidSpec with every row that breaks a rule."""
-    text = as_lines(text_of(path, shown, "table"))
+def load_table(path: Path, shown: str, text: str) -> Table:
+    """The table that a text holds. Errors: InvalidSpec with every row that breaks a rule."""
+    text = as_lines(text)
     about, rows, separator = _split(text.removeprefix("\ufeff"), shown)
     if len(rows) < 3:
         rule = "a table has a row of names with units, such as cycle [%],knee_flexion [deg], and two rows of numbers"

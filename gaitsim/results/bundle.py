@@ -4,14 +4,17 @@ from __future__ import annotations
 
 import hashlib
 import json
+import re
 from collections.abc import Iterable
 from collections.abc import Mapping as Map
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from gaitsim.errors import Fault, GaitsimError, Mark
 from gaitsim.model import Model
-from gaitsim.parts.find import Library
-from gaitsim.spec.document import Mapping, dump, parse, plain
+from gaitsim.parts.find import Library, shown
+from gaitsim.parts.load import as_lines
+from gaitsim.spec.document import Mapping, dump, parse, plain, text_of
 from gaitsim.spec.inheritance import without_marked
 from gaitsim.spec.resolve import resolve
 
@@ -19,12 +22,20 @@ SPEC, COMPONENTS, START = "spec.yaml", "components", "start.json"
 _SUFFIXES = (".py", ".yaml", ".csv")
 
 
+class BadResult(GaitsimError):
+    """A folder that is no result, or that is damaged."""
+
+
 @dataclass(frozen=True)
 class Bundle:
-    """Texts by relative path: spec.yaml and components/kind/name.*."""
+    """Texts by relative path: spec.yaml and components/kind/name.*, and the folder where errors say they lie.
+
+    It is read once: its digest, the question whether it may run, and the model all come of the same texts.
+    """
 
     name: str
     files: dict[str, str]
+    folder: Path = field(default=Path(), compare=False)
 
     @property
     def digest(self) -> str:
@@ -41,6 +52,31 @@ class Bundle:
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text, encoding="utf-8")
 
+    def document(self) -> Mapping:
+        """The spec. Errors: InvalidSpec."""
+        return parse(self.files[SPEC], str(self.folder / SPEC))
+
+    def library(self) -> Library:
+        """The components, and no others."""
+        inside = {self.folder / path: text for path, text in self.files.items() if path.startswith(f"{COMPONENTS}/")}
+        return Library((self.folder / COMPONENTS,), inside)
+
+    def starts(self) -> dict[str, float]:
+        """The tuned values to start from, by address, in SI. Errors: BadResult."""
+        if START not in self.files:
+            return {}
+        try:
+            found = json.loads(self.files[START])
+            return {str(address): float(value) for address, value in found.items()}
+        except (ValueError, TypeError, AttributeError, OverflowError, RecursionError) as error:
+            rule = "these are no numbers by address; restore this file from a copy."
+            raise BadResult(Fault(rule, Mark(str(self.folder / START)))) from error
+
+    def model(self) -> Model:
+        """The model at its starts. Errors: InvalidSpec, InvalidComponent, BadResult."""
+        model = resolve(self.document(), self.library(), self.name)
+        return model.started_at(self.starts(), str(self.folder / START))
+
 
 def bundled(
     document: Mapping, name: str, library: Library, starts: Map[str, float], models: Iterable[Model]
@@ -55,38 +91,33 @@ def bundled(
         files[START] = json.dumps(dict(starts), indent=2) + "\n"
     for reference, component in library.used().items():
         files[f"{COMPONENTS}/{reference}{component.path.suffix}"] = component.source
-        contract = library.kind_file(component.kind)
+        contract = library.contract(component.kind)
         if contract:
-            files[f"{COMPONENTS}/{component.kind}/kind.yaml"] = contract.read_text(encoding="utf-8")
+            files[f"{COMPONENTS}/{component.kind}/kind.yaml"] = contract[1]
     for reference, table in library.used_tables().items():
         files[f"{COMPONENTS}/{reference}{table.path.suffix}"] = table.source
     return Bundle(name, files)
 
 
 def read_bundle(folder: Path, name: str) -> Bundle:
-    """The bundle that lies in a result folder. Errors: OSError, UnicodeDecodeError."""
-    paths = [path for path in sorted((folder / COMPONENTS).rglob("*")) if path.suffix in _SUFFIXES]
-    paths += [folder / SPEC, *([folder / START] if (folder / START).is_file() else [])]
-    return Bundle(name, {path.relative_to(folder).as_posix(): path.read_text(encoding="utf-8") for path in paths})
+    """The bundle that lies in a result folder, also behind links.
+
+    Errors: BadResult for what is missing or no text.
+    """
+    try:
+        inside = [path for path in (folder / COMPONENTS).glob("*/*") if path.suffix in _SUFFIXES]
+    except OSError as error:
+        rule = f"{folder / COMPONENTS}: this cannot be read ({error.strerror or error}); restore it from a copy."
+        raise BadResult(rule) from error
+    start = folder / START
+    paths = [folder / SPEC, *([start] if start.exists() or start.is_symlink() else []), *sorted(inside)]
+    return Bundle(name, {path.relative_to(folder).as_posix(): _text(path) for path in paths}, folder)
 
 
-def bundle_document(folder: Path) -> Mapping:
-    """The spec of a bundle. Errors: OSError, InvalidSpec."""
-    return parse((folder / SPEC).read_text(encoding="utf-8"), str(folder / SPEC))
-
-
-def bundle_library(folder: Path) -> Library:
-    """The components of a bundle, and no others."""
-    return Library((folder / COMPONENTS,))
-
-
-def bundle_starts(folder: Path) -> dict[str, float]:
-    """The tuned values that a bundle starts from. Errors: OSError, ValueError."""
-    path = folder / START
-    return dict(json.loads(path.read_text(encoding="utf-8"))) if path.is_file() else {}
-
-
-def bundle_model(folder: Path, name: str) -> Model:
-    """The model of a bundle. Errors: OSError, InvalidSpec, InvalidComponent."""
-    model = resolve(bundle_document(folder), bundle_library(folder), name)
-    return model.started_at(bundle_starts(folder), str(folder / START))
+def _text(path: Path) -> str:
+    """A file of a result, with lines ended as Python does."""
+    try:
+        return as_lines(text_of(path, shown(path), "copy"))
+    except GaitsimError as error:
+        rules = [re.split("[;.] ", fault.message)[0].rstrip(".") for fault in error.faults]
+        raise BadResult([Fault(f"{rule}; restore it from a copy.", Mark(shown(path))) for rule in rules]) from error

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping as Map
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from gaitsim.errors import Faults
@@ -14,7 +13,7 @@ from gaitsim.model import Free, Model
 from gaitsim.optimization.combination import combined
 from gaitsim.optimization.evaluation import Verdict
 from gaitsim.parts.find import Library
-from gaitsim.results.bundle import bundle_document, bundle_library, bundle_starts
+from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.document import Mapping
@@ -59,10 +58,10 @@ def _ended(outcomes: Sequence[Outcome]) -> tuple[str, str]:
     return outcomes[0].status, ""
 
 
-def bundle_episodes(folder: Path, name: str, mode: Mode) -> Episodes:
-    """The episodes of a bundle. Errors: OSError, InvalidSpec, InvalidComponent."""
-    document, starts = bundle_document(folder), bundle_starts(folder)
-    models = [model.started_at(starts) for model in episode_models(document, bundle_library(folder), name)]
+def bundle_episodes(bundle: Bundle, mode: Mode) -> Episodes:
+    """The episodes of a bundle. Errors: InvalidSpec, InvalidComponent, BadResult."""
+    document, starts = bundle.document(), bundle.starts()
+    models = [model.started_at(starts) for model in episode_models(document, bundle.library(), bundle.name)]
     return Episodes(tuple(Simulator(model, mode) for model in models), optimize_section(document).combine)
 
 

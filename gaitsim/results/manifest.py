@@ -5,19 +5,20 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping as Map
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
-from gaitsim.errors import Fault, GaitsimError, Mark
+from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic_core import ErrorDetails
+
+from gaitsim import __version__
+from gaitsim.errors import Fault, Mark, shortened
+from gaitsim.results.bundle import BadResult as BadResult
 from gaitsim.results.bundle import Bundle, read_bundle
 from gaitsim.results.lock import state_of
-from gaitsim.results.provenance import provenance
+from gaitsim.results.provenance import provenance, versions
 
 _NAME = "manifest.json"
 FORMAT = 2  # of what a result's files say; in 1, parameters.csv and model.yaml have SI numbers beside other units
-
-
-class BadResult(GaitsimError):
-    """A folder that is no result, or that is damaged."""
 
 
 def is_result(path: Path) -> bool:
@@ -55,44 +56,82 @@ def write_manifest(folder: Path, manifest: dict[str, Any]) -> None:
         raise
 
 
-def read_manifest(folder: Path) -> dict[str, Any]:
-    """The manifest of a result, with its files checked against their digest.
+class _Known(BaseModel):
+    """What readers of a manifest rely on; the rest may say anything."""
+
+    model_config = ConfigDict(extra="allow", strict=True)
+
+    kind: Literal["run", "optimize"]
+    status: str
+    name: str
+    mode: str
+    digest: str
+    format: int = 1
+    created: str
+    gaitsim: str
+    versions: dict[str, str]
+    notices: list[str] = []
+    search: dict[str, Any] = {}
+    best_score: float | None = None
+    evaluations: int | None = None
+
+
+def recorded_manifest(folder: Path) -> dict[str, Any]:
+    """What a result's manifest says; whether its files are as they were is not asked.
 
     Errors: BadResult.
     """
     path = folder / _NAME
+    try:
+        manifest = json.loads(path.read_text(encoding="utf-8"))
+        _Known.model_validate(manifest)
+    except ValidationError as error:
+        rule = f"{_said(error.errors()[0])}, so this manifest was damaged or edited; restore it from a copy."
+        raise BadResult(Fault(rule, Mark(str(path)))) from error
+    except (OSError, ValueError, RecursionError) as error:
+        rule = f"this manifest cannot be read ({getattr(error, 'strerror', None) or error}); restore it from a copy."
+        raise BadResult(Fault(rule, Mark(str(path)))) from error
+    return {**manifest, "status": state_of(folder, manifest["status"])}
+
+
+def _said(fault: ErrorDetails) -> str:
+    """What a manifest says and should not."""
+    place = ".".join(map(str, fault["loc"]))
+    if fault["type"] == "missing":
+        return f"{place} is missing"
+    found = shortened(json.dumps(fault["input"]))
+    return f"{place} is {found}" if place else f"this is {found} and no mapping"
+
+
+def read_result(folder: Path) -> tuple[dict[str, Any], Bundle]:
+    """The manifest of a result, and its files, checked against the digest that the manifest has of them.
+
+    Errors: BadResult.
+    """
     if not folder.is_dir():
         near = sorted(p.name for p in folder.absolute().parent.glob("*") if (p / _NAME).is_file())
         known = f"; the last are: {', '.join(near[-5:])}" if near else ""
         raise BadResult(f"{folder}: there is no such result{known}. See: gaitsim results list")
-    if not path.is_file():
+    if not (folder / _NAME).is_file():
         rule = "there is no manifest.json, so this is no result, or one that was never finished being made"
         raise BadResult(f"{folder}: {rule}; name another, or see: gaitsim results list")
-    try:
-        manifest = json.loads(path.read_text(encoding="utf-8"))
-        name, digest = str(manifest["name"]), str(manifest["digest"])
-        manifest["kind"]
-        manifest["status"] = state_of(folder, manifest["status"])
-    except (OSError, ValueError, KeyError, TypeError) as error:
-        rule = f"this manifest cannot be read ({error}); restore it from a copy."
-        raise BadResult(Fault(rule, Mark(str(path)))) from error
-    try:
-        found = read_bundle(folder, name).digest
-    except OSError as error:
-        raise BadResult(f"{error.filename}: this is missing or cannot be read; restore it from a copy.") from error
-    except UnicodeDecodeError as error:
-        raise BadResult(f"{folder}: its spec or a component is no text any more; restore them from a copy.") from error
-    if found != digest:
+    manifest = recorded_manifest(folder)
+    bundle = read_bundle(folder, manifest["name"])
+    if bundle.digest != manifest["digest"]:
         rule = "its spec or components were edited after it was made, so it would not re-run as it was"
         raise BadResult(f"{folder}: {rule}; restore them, or copy the folder's spec.yaml and run that.")
-    return dict(manifest)
+    return manifest, bundle
+
+
+def read_manifest(folder: Path) -> dict[str, Any]:
+    """The manifest of a result whose files are as they were. Errors: BadResult."""
+    return read_result(folder)[0]
 
 
 def changed_versions(manifest: dict[str, Any]) -> list[str]:
     """What differs between the result's versions and this machine's: in words."""
-    now = provenance()
     before = {"gaitsim": manifest.get("gaitsim"), **manifest.get("versions", {})}
-    after = {"gaitsim": now["gaitsim"], **now["versions"]}
+    after = {"gaitsim": __version__, **versions()}
     return [
         f"{name} {before.get(name, 'absent')} -> {version}"
         for name, version in after.items()

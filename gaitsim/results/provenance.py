@@ -21,10 +21,15 @@ def provenance() -> dict[str, Any]:
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "command": [Path(sys.argv[0]).name, *sys.argv[1:]],
         "gaitsim": __version__,
-        "versions": {"python": platform.python_version()} | {name: version(name) for name in _LIBRARIES},
+        "versions": versions(),
         "machine": {"system": platform.platform(), "cpu": _processor()},
         "commit": _commit(Path.cwd()),
     }
+
+
+def versions() -> dict[str, str]:
+    """The version of Python and of each library that numbers depend on."""
+    return {"python": platform.python_version()} | {name: version(name) for name in _LIBRARIES}
 
 
 def _processor() -> str:
@@ -37,7 +42,9 @@ def _commit(folder: Path) -> dict[str, Any] | None:
     """The git commit of the working folder and whether it has changes; None outside a checkout."""
     try:
         head = _git("rev-parse", "HEAD", folder=folder)
-        return {"hash": head, "dirty": bool(_git("status", "--porcelain", folder=folder))}
+        # A checkout may name a program that watches its files, which this would start.
+        status = _git("-c", "core.fsmonitor=false", "status", "--porcelain", folder=folder)
+        return {"hash": head, "dirty": bool(status)}
     except (OSError, subprocess.SubprocessError):
         return None
 

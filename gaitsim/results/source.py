@@ -10,16 +10,9 @@ from typing import Any
 
 from gaitsim.model import Model
 from gaitsim.parts.find import Library
-from gaitsim.results.bundle import (
-    Bundle,
-    bundle_document,
-    bundle_library,
-    bundle_model,
-    bundle_starts,
-    bundled,
-)
+from gaitsim.results.bundle import Bundle, bundled
 from gaitsim.results.episodes import first_episode
-from gaitsim.results.manifest import read_manifest
+from gaitsim.results.manifest import read_result
 from gaitsim.results.pick import pick
 from gaitsim.results.rows import pick_row, read_rows, row_starts, row_words
 from gaitsim.results.trust import check_trust
@@ -60,14 +53,14 @@ def source_of_result(folder: Path, settings: Sequence[str], trusted: bool, candi
     candidate: of a search (best if None), or a run of a study; None leaves a study what it is.
     Errors: BadResult, Untrusted, InvalidSpec, Usage.
     """
-    manifest = read_manifest(folder)
-    check_trust(folder, trusted)
-    document, library, name = bundle_document(folder), bundle_library(folder), str(manifest["name"])
-    starts, recorded, notice = bundle_starts(folder), {}, ""
+    manifest, bundle = read_result(folder)
+    check_trust(bundle, trusted)
+    document, library, name = bundle.document(), bundle.library(), bundle.name
+    starts, recorded, notice = bundle.starts(), {}, ""
     if manifest["kind"] == "optimize":
         evaluation = pick(folder, candidate or "best")
         place, recorded = evaluation.candidate, dict(vars(evaluation.verdict))
-        starts = dict(zip((f.address for f in bundle_model(folder, name).free), place.x, strict=True))
+        starts = dict(zip((f.address for f in bundle.model().free), place.x, strict=True))
         notice = f"candidate {place.generation}:{place.index} of {folder}"
         document, recorded, told = first_episode(document, recorded)
         notice += told

@@ -60,7 +60,7 @@ def create_result(
             shutil.rmtree(draft, ignore_errors=True)
         reason = error.strerror or str(error)
         raise CannotSave(f"{root}: the result cannot be saved ({reason}); free it, or use --no-save.") from error
-    remember(target)
+    remember(bundle)
     return target
 
 

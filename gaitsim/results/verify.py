@@ -5,14 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from collections.abc import Mapping as Map
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any
 
 from gaitsim.optimization.evaluation import Evaluation
 from gaitsim.optimization.journal import evaluations_in
-from gaitsim.results.bundle import bundle_document, bundle_library, bundle_starts
+from gaitsim.results.bundle import BadResult, Bundle
 from gaitsim.results.episodes import bundle_episodes
-from gaitsim.results.manifest import BadResult
 from gaitsim.results.rows import COMPARED, read_rows, row_starts
 from gaitsim.results.store import row_data
 from gaitsim.simulation.run import Mode, Simulator
@@ -28,33 +26,33 @@ class Check:
     differs: tuple[str, ...]
 
 
-def verified(folder: Path, manifest: Map[str, Any], everything: bool) -> Iterator[Check]:
+def verified(bundle: Bundle, manifest: Map[str, Any], everything: bool) -> Iterator[Check]:
     """Run candidates of a result again: the best, the start and some between; or all of them.
 
     Errors: BadResult, DamagedJournal, InvalidSpec.
     """
     mode: Mode = "normal" if manifest["mode"] == "normal" else "rapid"
     if manifest["kind"] == "run":
-        yield from _runs(folder, str(manifest["name"]), mode)
+        yield from _runs(bundle, mode)
         return
-    episodes = bundle_episodes(folder, str(manifest["name"]), mode)
+    episodes = bundle_episodes(bundle, mode)
     # What hung or killed a worker would do so again.
-    found = [e for e in evaluations_in(folder) if e.verdict.status not in ("killed", "timeout")]
+    found = [e for e in evaluations_in(bundle.folder) if e.verdict.status not in ("killed", "timeout")]
     if not found:
-        raise BadResult(f"{folder}: nothing was evaluated yet, so there is nothing to verify.")
+        raise BadResult(f"{bundle.folder}: nothing was evaluated yet, so there is nothing to verify.")
     for evaluation in found if everything else _sample(found):
         place = evaluation.candidate
         before, now = vars(evaluation.verdict), vars(episodes.verdict(place.x))
         yield Check(f"{place.generation}:{place.index}", differences(before, now))
 
 
-def _runs(folder: Path, name: str, mode: Mode) -> Iterator[Check]:
-    document, library = bundle_document(folder), bundle_library(folder)
-    for i, row in enumerate(read_rows(folder)):
+def _runs(bundle: Bundle, mode: Mode) -> Iterator[Check]:
+    document, library, starts = bundle.document(), bundle.library(), bundle.starts()
+    for i, row in enumerate(read_rows(bundle.folder)):
         variant = document
         for address, text in row["settings"].items():
             variant = override(variant, address, text)
-        model = resolve(variant, library, name).started_at(bundle_starts(folder) | row_starts(row))
+        model = resolve(variant, library, bundle.name).started_at(starts | row_starts(row))
         now = row_data(row["settings"], Simulator(model, mode).run())
         yield Check(", ".join(f"{a}={v}" for a, v in row["settings"].items()) or f"run {i}", differences(row, now))
 

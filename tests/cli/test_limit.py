@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.results.bundle import bundle_starts
+from gaitsim.results.bundle import read_bundle
 from gaitsim.results.rows import read_rows
 
 from .commands import Said, gaitsim
@@ -205,7 +205,7 @@ def test_a_variant_starts_at_the_tuned_values_of_its_parent(spec: Path, capsys: 
     Path("high.yaml").write_text("gaitsim: 1\nextends: stone.yaml\ninitial: {guide.position: 3 m}\n", encoding="utf-8")
     said = gaitsim(capsys, "limit", "high.yaml", "--vary", f"{HEIGHT}=3 m:1 m", "--json")
     assert "tuned values from stone.tuned.yaml (results/a); --start ignores them" in said.err
-    assert bundle_starts(Path(json.loads(said.out)["result"])) == {"stone.mass": 3}
+    assert read_bundle(Path(json.loads(said.out)["result"]), "high").starts() == {"stone.mass": 3}
     assert "tuned" not in gaitsim(capsys, "run", "high.yaml", "--no-save", "--start").err
 
 

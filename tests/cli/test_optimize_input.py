@@ -258,11 +258,11 @@ def other_seed(folder: Path) -> None:
 DAMAGES: dict[str, tuple[Any, str]] = {
     "no manifest": (lambda f: (f / "manifest.json").unlink(), "there is no manifest.json, so this is no result"),
     "manifest garbage": (damage_manifest, "manifest.json: this manifest cannot be read"),
-    "manifest is a list": (lambda f: (f / "manifest.json").write_text("[]"), "this manifest cannot be read"),
+    "manifest is a list": (lambda f: (f / "manifest.json").write_text("[]"), "json: this is [] and no mapping"),
     "search garbage": (damage_search, "what it says about its search cannot be read"),
     "other seed": (other_seed, "generation 1, candidate 0 is not the vector that this search asks for"),
     "no journal": (lambda f: (f / "evaluations.jsonl").unlink(), "evaluations.jsonl: this journal is missing"),
-    "no spec": (lambda f: (f / "spec.yaml").unlink(), "spec.yaml: this is missing or cannot be read"),
+    "no spec": (lambda f: (f / "spec.yaml").unlink(), "spec.yaml: there is no such file; restore it from a copy"),
     "spec edited": (lambda f: rewritten(f / "spec.yaml", ("60", "61")), "its spec or components were edited"),
     "component edited": (
         lambda f: rewritten(f / "components/trap/none.py", ("1.0", "2.0")),
@@ -272,7 +272,7 @@ DAMAGES: dict[str, tuple[Any, str]] = {
     "component added": (lambda f: (f / "components/trap/x.py").write_text("1"), "its spec or components were edited"),
     "component binary": (
         lambda f: (f / "components/trap/none.py").write_bytes(b"\xff\xfe"),
-        "its spec or a component is no text any more",
+        "components/trap/none.py: byte 0 (0xff, in line 1) is not UTF-8; restore it from a copy",
     ),
 }
 

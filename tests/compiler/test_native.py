@@ -109,7 +109,7 @@ def test_a_user_without_a_home(monkeypatch: pytest.MonkeyPatch, caplog: pytest.L
         monkeypatch.delenv(variable, raising=False)
     monkeypatch.setattr(Path, "home", nobody)
     assert [thrice(2.0), thrice(3.0)] == [6.0, 9.0]
-    assert said(caplog) == [f"gaitsim: this user has no home folder for a cache, {DEAD_END}."]
+    assert said(caplog) == [f"gaitsim: there is no absolute path to a cache folder, {DEAD_END}."]
 
 
 def test_what_is_kept_needs_no_compiler(folder: Path) -> None:

@@ -23,8 +23,12 @@ CYCLE = np.linspace(0, 1, 101)
 BUMP = np.interp(CYCLE, [0, 0.25, 0.5, 0.75, 1], [0.0, 1.0, 0.2, 2.0, 0.0])
 
 
+def read_table(path: Path, shown: str) -> Table:
+    return load_table(path, shown, path.read_text(encoding="utf-8"))
+
+
 def table(name: str) -> Table:
-    return load_table(FOLDER / "norms" / f"{name}.csv", name)
+    return read_table(FOLDER / "norms" / f"{name}.csv", name)
 
 
 def peak(column: str, low: float = 0, high: float = 100) -> tuple[float, float]:
@@ -52,7 +56,7 @@ def test_the_shipped_moments_are_those_of_the_literature() -> None:
 
 @pytest.mark.parametrize("path", sorted((FOLDER / "norms").glob("*.csv")), ids=lambda path: path.stem)
 def test_every_table_says_whose_it_is(path: Path) -> None:
-    found = load_table(path, path.name)
+    found = read_table(path, path.name)
     assert found.recorded_by in read_bibliography([FOLDER])
     assert "licence: CC BY 4.0" in found.about
 
@@ -115,13 +119,13 @@ def _even(low: int, high: int, step: int = 2) -> str:
 def test_a_table_with_a_mistake_says_where(tmp_path: Path, text: str, said: str) -> None:
     (tmp_path / "bad.csv").write_text(text)
     with pytest.raises(InvalidSpec) as raised:
-        load_table(tmp_path / "bad.csv", "bad.csv")
+        read_table(tmp_path / "bad.csv", "bad.csv")
     assert str(raised.value).startswith(said)
 
 
 def test_a_table_without_its_last_row_ends_where_it_begins(tmp_path: Path) -> None:
     (tmp_path / "open.csv").write_text(_even(0, 98))
-    curve = load_table(tmp_path / "open.csv", "open.csv").curve("knee", 101)
+    curve = read_table(tmp_path / "open.csv", "open.csv").curve("knee", 101)
     assert [math.degrees(curve[at]) for at in (0, 58, 98, 99, 100)] == pytest.approx([0, 29, 49, 24.5, 0])
 
 
@@ -130,7 +134,7 @@ def test_a_table_of_a_spreadsheet_is_the_same_table(tmp_path: Path) -> None:
     words, head, rows = shipped.partition("cycle")
     written = words + (head + rows).replace(",", ";").replace(".", ",") + ";;;;;;\n"
     (tmp_path / "excel.csv").write_text(written.replace("\n", "\r\n"), encoding="utf-8-sig", newline="")
-    found, expected = load_table(tmp_path / "excel.csv", "excel.csv"), table("fukuchi2018_walking")
+    found, expected = read_table(tmp_path / "excel.csv", "excel.csv"), table("fukuchi2018_walking")
     assert (found.recorded_by, found.units) == (expected.recorded_by, expected.units)
     assert [list(found.columns[name]) for name in found.units] == [list(expected.columns[n]) for n in expected.units]
 

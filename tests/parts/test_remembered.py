@@ -8,8 +8,13 @@ import pytest
 
 from gaitsim.parts import audited, load
 from gaitsim.parts.find import shipped_folder
+from gaitsim.parts.primitive import Primitive
 
 MUSCLE = shipped_folder() / "muscle" / "geyer2003.py"
+
+
+def loaded() -> Primitive:
+    return load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py", MUSCLE.read_text(encoding="utf-8"))
 
 
 @pytest.fixture
@@ -32,8 +37,8 @@ def audits(monkeypatch: pytest.MonkeyPatch) -> list[str]:
 
 
 def test_a_sound_file_is_checked_once_and_keeps_its_dependencies(cache: Path, audits: list[str]) -> None:
-    first = load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py")
-    again = load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py")
+    first = loaded()
+    again = loaded()
     assert audits == ["geyer2003.py"]
     assert again.dependencies == first.dependencies
     assert first.dependencies["force"]
@@ -41,10 +46,10 @@ def test_a_sound_file_is_checked_once_and_keeps_its_dependencies(cache: Path, au
 
 @pytest.mark.parametrize("damage", [b"", b"{", b"[]", b"3", b'{"force": 1}', b"\xff"])
 def test_a_damaged_memory_is_made_again(cache: Path, audits: list[str], damage: bytes) -> None:
-    first = load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py")
+    first = loaded()
     (memory,) = (cache / "audited").iterdir()
     memory.write_bytes(damage)
-    again = load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py")
+    again = loaded()
     assert len(audits) == 2
     assert again.dependencies == first.dependencies
     assert audited.sound_dependencies(first.source) == first.dependencies
@@ -56,5 +61,5 @@ def test_without_a_place_to_remember_a_file_is_checked_each_time(
     (tmp_path / "file").write_text("")
     monkeypatch.setenv("GAITSIM_CACHE", str(tmp_path / "file"))
     for _ in range(2):
-        load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py")
+        loaded()
     assert len(audits) == 2

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from gaitsim.cli.source import source_of_spec
-from gaitsim.results.bundle import bundle_model
+from gaitsim.results.bundle import read_bundle
 from gaitsim.simulation.run import Simulator
 
 SPEC = Path(__file__).parents[2] / "specs" / "hopping_leg_mass.yaml"
@@ -24,7 +24,7 @@ def test_a_swapped_model_is_the_same_from_its_bundle(swap: str, tmp_path: Path) 
     source = source_of_spec(SPEC, [swap, "simulate.duration=1 s"], None, tuned=False)
     model = source.model()
     source.bundle([model]).write(tmp_path)
-    again = bundle_model(tmp_path, source.name)
+    again = read_bundle(tmp_path, source.name).model()
     assert [part.type.reference for part in again.parts] == [part.type.reference for part in model.parts]
     assert again.values() == model.values()
     assert Simulator(again).run().metrics == Simulator(model).run().metrics
