@@ -61,7 +61,7 @@ def _reason(tuning: Tuning, path: Path, score: float) -> str:
     except InvalidSpec as error:
         return f"its values cannot be compared, as {error.faults[0].message.rstrip('.')}"
     x = tuning.model.started_at(values).start
-    there = bundle_episodes(tuning.folder, tuning.bundle.name, tuning.mode).verdict(x).score
+    there = bundle_episodes(tuning.bundle, tuning.mode).verdict(x).score
     if there is None or there >= score:
         return ""
     return f"its values score {there:.6g} here, and the best of this search {score:.6g} (lower is better)"

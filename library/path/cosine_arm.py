@@ -8,8 +8,8 @@ class CosineArm(Component):
 
     l = l_ref - rho r_0 [sin(phi - phi_max) - sin(phi_ref - phi_max)]: opening the joint shortens the
     path where r > 0. The pennation factor rho scales the length only, not the moment r F: with rho < 1 the joint
-    gets 1 / rho of the work that the muscle gives. With rho = 1 both agree. In a joint that counts its angle otherwise, phi_max and phi_ref are such angles too, and r_0 has the sign of
-    the moment that the joint takes.
+    gets 1 / rho of the work that the muscle gives. With rho = 1 both agree. In a joint that counts its angle
+    otherwise, phi_max and phi_ref are such angles too, and r_0 has the sign of the moment that the joint takes.
     """
 
     moment_arm = Parameter("m", "Largest moment arm r_0; negative if the path closes the joint.", bounds=(-1, 1))
