@@ -30,14 +30,14 @@ class Adoption:
 def adopt(tuning: Tuning, spec: Path, progress: Progress, force: bool, options: Sequence[str]) -> Adoption:
     """Write the best values of a search beside its spec, unless the values there have a lower score.
 
-    options: with which this search is resumed. Errors: CannotSave.
+    options: with which the command comes to this search again. Errors: CannotSave.
     """
     best = progress.best
     assert best is not None and best.verdict.score is not None
     path, score = tuned_path(spec), best.verdict.score
     reason = "" if force else _reason(tuning, path, score)
     if reason:
-        again = shlex.join(["gaitsim", "optimize", str(spec), "--resume", *options, "--adopt", "--force"])
+        again = shlex.join(["gaitsim", "optimize", str(spec), *options, "--adopt", "--force"])
         return Adoption(False, f"{path} is kept: {reason}. To replace it: {again}")
     values = dict(zip((f.address for f in tuning.model.free), best.candidate.x, strict=True))
     units = {f.address: f.unit for f in tuning.model.free}

@@ -91,7 +91,8 @@ def optimize(
     except KeyboardInterrupt:
         return _interrupted(tuning, workplace, json)
     wall = time.perf_counter() - began
-    adoption = adopted(tuning, spec, progress, force, [*request.words, *workplace.words]) if adopt else None
+    options = ["--smoke" if smoke else "--resume", *request.words, *workplace.words]
+    adoption = adopted(tuning, spec, progress, force, options) if adopt else None
     _report(tuning, progress, wall, json, adoption)
     return 0 if adoption is None or adoption.written else ExitCode.USAGE
 

@@ -12,7 +12,7 @@ from results.foreign import make
 from gaitsim.cli.main import main
 from gaitsim.units import parse_unit
 
-SEARCH = ("--workers", "0", "--smoke", "--seed", "1")
+SEARCH = ("--workers", "0", "--population", "4", "--generations", "2", "--seed", "1")
 TUNED = Path("spec.tuned.yaml")
 
 
