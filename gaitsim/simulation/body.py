@@ -13,9 +13,11 @@ import numpy as np
 from gaitsim.compiler.mjcf import Assembly, assemble, tie_place
 from gaitsim.compiler.program import Program
 from gaitsim.errors import Fault, InvalidSpec
-from gaitsim.simulation.failure import of_mechanics
+from gaitsim.simulation.failure import of_mechanics, of_runaway
 from gaitsim.simulation.projection import close_loops
 from gaitsim.simulation.standing import stand
+
+_FARTHEST = 1.0  # rad or m in one step
 
 
 @dataclass
@@ -26,6 +28,7 @@ class Body:
     _built_for: tuple[float, ...] | None = None
     _assembly: Assembly | None = field(default=None, repr=False)
     data: Any = None
+    _begun_at: Any = field(default=None, repr=False)
 
     @property
     def assembly(self) -> Assembly:
@@ -72,6 +75,7 @@ class Body:
             if place not in given["qpos"]:
                 stand(self.model, self.data, place, self.assembly.touching)
         mujoco.mj_forward(self.model, self.data)
+        self._begun_at = self.data.qpos.copy()
 
     @cached_property
     def _coordinates(self) -> dict[str, tuple[str, int]]:
@@ -120,6 +124,18 @@ class Body:
             if not np.isfinite(getattr(self.data, array)[place])
         ]
         return of_mechanics(self.program, wrong, step)
+
+    def runaway(self, steps: int) -> str | None:
+        """Which joint moved, after so many steps, as no motion that these steps follow does, in words.
+
+        A joint that turns by a radian or slides by a meter within one step, or did so on average since the start,
+        was not simulated but jumped from place to place: its numbers are finite, and mean nothing.
+        """
+        dt = self.program.model.simulate.step
+        change = {"qpos": (self.data.qpos - self._begun_at) / max(steps, 1), "qvel": dt * self.data.qvel}
+        moved = {address: abs(float(change[array][at])) for address, (array, at) in self._coordinates.items()}
+        fastest = max(moved, key=lambda address: moved[address], default="")
+        return of_runaway(self.program, fastest, moved[fastest], steps) if moved.get(fastest, 0) > _FARTHEST else None
 
     def array(self, name: str) -> Any:
         """One of MuJoCo's arrays as a flat numpy view."""

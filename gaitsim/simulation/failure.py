@@ -9,6 +9,7 @@ import numpy as np
 from gaitsim.compiler.program import Floats, Program
 from gaitsim.model import Part
 from gaitsim.simulation.view import View, views
+from gaitsim.units import parse_unit
 
 
 def of_exception(program: Program, part: int, stage: str, step: int, error: Exception) -> str:
@@ -77,6 +78,15 @@ def of_nothing_found(program: Program, step: int) -> str:
     """Native code ended a run, and plain Python finds no reason."""
     said = f"native code raised or gave no finite number at {_when(program, step)}, and plain Python does not"
     return f"{said}; run it with --mode normal"
+
+
+def of_runaway(program: Program, address: str, moved: float, step: int) -> str:
+    """A joint's coordinate that is finite, and moved as nothing does that is simulated: by how much, in each step."""
+    part, name = program.port(address)
+    unit = parse_unit(program.model.parts[part].type.outputs[name].unit).dimension.si.partition("/")[0]
+    rule = f"the mechanics diverged: {program.model.parts[part].address} moves by {moved:.2g} {unit}"
+    when = f"in each step of {1e3 * program.model.simulate.step:g} ms before {_when(program, step)}"
+    return f"{rule} {when}; try a shorter step, or less stiffness and damping"
 
 
 def _who(program: Program, part: int) -> str:
