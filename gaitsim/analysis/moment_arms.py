@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -17,15 +18,46 @@ def warnings(arms: Sequence[MomentArm]) -> list[Fault]:
     for arm in arms:
         low, high = np.degrees(arm.angles[[0, -1]])
         over = f"{low:.0f} to {high:.0f} deg" + ("" if arm.limited else ", as the hinge has no limits")
-        if arm.turns:
+        # An arm that is a function of the angle is meant to be what it is beyond a joint's own range.
+        if arm.turns and (arm.points or arm.limited):
             places = _degrees(arm.turns)
             rule = f"the moment arm over {arm.hinge.address} changes sign at {places} (looked at: {over})"
             move = "beyond it the path pulls the other way; wrap it around the joint, move its points or its side"
             found.append(Fault(f"{rule}; {move}.", arm.path.mark, arm.path.address))
-        elif arm.jumps:
+        elif arm.points and arm.jumps:
             rule = f"the length jumps at {_degrees(arm.jumps)} of {arm.hinge.address} (looked at: {over})"
             found.append(Fault(f"{rule}; move the cylinder's side or the points.", arm.path.mark, arm.path.address))
     return found
+
+
+# What people call it when the child, hanging from its joint, turns backwards, and when it turns forwards.
+_SENSES = {"hip": ("extends", "flexes"), "knee": ("flexes", "extends"), "ankle": ("plantarflexes", "dorsiflexes")}
+
+
+def said(arm: MomentArm) -> str:
+    """Which way a muscle turns a joint in the initial pose, such as "leg_l.soleus plantarflexes leg_l.ankle (...)"."""
+    back = (arm.initial > 0) == arm.backwards
+    if abs(arm.initial) < 1e-6:
+        return f"{arm.muscle} does not turn {arm.hinge.address} at the start"
+    # A child that is fastened by its far end is the segment above the joint.
+    frame = arm.hinge.attachments["child"].rpartition(".")[2]
+    sense = _SENSES.get(_bare(arm.hinge.address))
+    does = sense[0 if back != (frame == "distal") else 1] if sense else "turns"
+    how = "backwards" if back else "forwards"
+    return f"{arm.muscle} {does} {arm.hinge.address} (the child turns {how})"
+
+
+def table(arms: Sequence[MomentArm]) -> list[dict[str, Any]]:
+    """Of each arm: who turns what, in words, and the arm in the initial pose in m, positive where the angle grows."""
+    return [
+        {"muscle": arm.muscle, "joint": arm.hinge.address, "says": said(arm), "arm": arm.initial, "unit": "m"}
+        for arm in arms
+    ]
+
+
+def _bare(address: str) -> str:
+    """The last word of an address, without its side."""
+    return address.rpartition(".")[2].removesuffix("_l").removesuffix("_r")
 
 
 def draw(arms: Sequence[MomentArm], file: Path, title: str) -> None:
@@ -36,12 +68,12 @@ def draw(arms: Sequence[MomentArm], file: Path, title: str) -> None:
     columns = min(3, len(hinges))
     rows = -(-len(hinges) // columns)
     figure = Figure(figsize=(5.2 * columns + 0.6, 3.8 * rows + 0.5), layout="constrained", dpi=150)
-    figure.suptitle(f"{title}\npositive: tension turns the hinge to larger angles", fontsize=10)
+    figure.suptitle(f"{title}\npositive: tension makes the angle grow", fontsize=10)
     for k, hinge in enumerate(hinges):
         axes = figure.add_subplot(rows, columns, k + 1)
         mine = [arm for arm in arms if arm.hinge.address == hinge]
         for arm in mine:
-            axes.plot(*_with_gaps(arm), label=arm.path.address.removesuffix(".path"))
+            axes.plot(*_with_gaps(arm), label=arm.muscle)
             for turn in arm.turns:
                 axes.axvline(np.degrees(turn), color="tab:red", linewidth=0.8, linestyle=":")
         axes.axhline(0, color="black", linewidth=0.8)
@@ -62,7 +94,7 @@ def _with_gaps(arm: MomentArm) -> tuple[list[float], list[float]]:
     """Angles in degrees and arms in cm; the line breaks where the path slips."""
     angles, arms = [], []
     for angle, value in zip(arm.angles, arm.arms, strict=True):
-        if float(angle) in arm.jumps:
+        if arm.points and float(angle) in arm.jumps:
             angles.append(float(np.degrees(angle)))
             arms.append(float("nan"))
         angles.append(float(np.degrees(angle)))

@@ -40,7 +40,7 @@ def check(
 
     gaitsim check specs/hopping_leg_mass.yaml --convergence
     """
-    from gaitsim.analysis.moment_arms import draw, warnings
+    from gaitsim.analysis.moment_arms import draw, table, warnings
     from gaitsim.cli.convergence import convergence_of, data, give
     from gaitsim.cli.starts import Starts
     from gaitsim.results.episodes import episode_models
@@ -74,7 +74,7 @@ def check(
     }
     if json:
         told = {"notices": [*source.notices, *model.notices], "warnings": [_line(doubt) for doubt in doubts]}
-        drawn = {"plot": str(picture) if picture else None} if plot else {}
+        drawn = {"plot": str(picture) if picture else None, "moment_arms": table(arms)} if plot else {}
         changes = {"convergence": [data(one, tolerance) for one in found]} if convergence else {}
         console.give_json({"status": "valid", **counts, **told, **drawn, **changes})
         return
@@ -83,8 +83,11 @@ def check(
         if row.settings:
             console.give("\n" + ", ".join(f"{address} = {value}" for address, value in row.settings.items()))
         give(converged, tolerance)
+    if plot and arms:
+        told_arms = [(row["says"], f"{100 * row['arm']:.3g}") for row in table(arms)]
+        console.give_table(["which way each muscle turns each joint", "arm at the start (cm)"], told_arms)
     if plot:
-        console.say(f"drawn in {picture}" if picture else "nothing to draw: no path of points crosses a hinge")
+        console.say(f"drawn in {picture}" if picture else "nothing to draw: no path crosses a hinge")
 
 
 def _line(fault: Fault) -> str:

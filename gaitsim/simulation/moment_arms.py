@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -13,23 +14,34 @@ from gaitsim.compiler.mjcf import tie_place
 from gaitsim.compiler.program import Floats, Program
 from gaitsim.model import Model, Part
 from gaitsim.simulation.body import Body
+from gaitsim.simulation.crossings import crossings
 
 _FREE = np.radians(150.0)  # to either side, of a hinge that declares no limits
 _POINTS = 601
+_SMOOTH = 10  # of these points one is enough where the arm is a function of the angle
 _TURN = 1e-6  # rad, for the derivative
 _NOTHING = 1e-6  # m; a path that runs through the axis has no side
 
 
 @dataclass(frozen=True)
 class MomentArm:
-    """The arm of one path over one hinge: positive where tension turns the hinge to larger angles.
+    """The arm of one path over one hinge: positive where tension makes the hinge's angle grow.
 
+    muscle: the address of what pulls, or of the path if that is no muscle's.
+    path: the component that has the arm; one of a path of points is told from its `points`.
+    limited: whether the hinge says where it ends.
+    backwards: whether the child, hanging, turns backwards as the angle grows: about the axis to the left.
+    initial: the arm in the initial pose.
     Angles in rad, arms and lengths in m.
     """
 
+    muscle: str
     path: Part
     hinge: Part
+    points: bool
     limited: bool
+    backwards: bool
+    initial: float
     angles: Floats
     arms: Floats
     lengths: Floats
@@ -58,13 +70,38 @@ def moment_arms(model: Model) -> list[MomentArm]:
     """
     body = Body(Program(model))
     body.pose(model.values())
-    mechanics, data, pose = body.model, body.data, body.data.qpos.copy()
-    paths = {
-        tie_place(mechanics, tie): model.parts[i]
-        for i, tie in body.assembly.reads
-        if tie.field == "ten_length" and model.parts[i].type.kind == "path"
-    }
-    found = []
+    hinges = {hinge.joint: hinge for hinge in _hinges(model, body)}
+    found = [arm for hinge in hinges.values() for arm in _of_points(model, body, hinge)]
+    for crossing in crossings(model, body.assembly):
+        hinge = hinges[crossing.joint]
+        angles = hinge.angles[::_SMOOTH]
+        arms, lengths = crossing.arms(angles)
+        if np.max(np.abs(arms)) > _NOTHING:
+            now = crossing.arm(hinge.now)
+            found.append(hinge.arm(crossing.muscle, crossing.source, False, now, angles, arms, lengths))
+    return found
+
+
+@dataclass(frozen=True)
+class _Hinge:
+    """A hinge, and the angles over which arms are looked at; `now` is the angle in the initial pose."""
+
+    part: Part
+    joint: str
+    place: int
+    limited: bool
+    backwards: bool
+    now: float
+    angles: Floats
+
+    def arm(
+        self, muscle: str, path: Part, points: bool, now: float, angles: Floats, arms: Floats, lengths: Floats
+    ) -> MomentArm:
+        return MomentArm(muscle, path, self.part, points, self.limited, self.backwards, now, angles, arms, lengths)
+
+
+def _hinges(model: Model, body: Body) -> Iterator[_Hinge]:
+    mechanics, data = body.model, body.data
     for i, tie in body.assembly.reads:
         if tie.field != "qpos" or tie.element is None:
             continue
@@ -76,17 +113,27 @@ def moment_arms(model: Model) -> list[MomentArm]:
         place = tie_place(mechanics, tie)
         neutral = float(mechanics.qpos0[place])
         angles = np.linspace(low, high, _POINTS) if limited else neutral + np.linspace(-_FREE, _FREE, _POINTS)
-        before, at, after = (_lengths(mechanics, data, pose, place, angles + turn) for turn in (-_TURN, 0.0, _TURN))
-        for tendon, path in paths.items():
-            arms = -(after[:, tendon] - before[:, tendon]) / (2 * _TURN)
-            # Where the path slips within the tiny turn, the quotient means nothing.
-            arms[np.abs(arms) > 10] = np.nan
-            if np.nanmax(np.abs(arms)) > _NOTHING:
-                known = ~np.isnan(arms)
-                found.append(
-                    MomentArm(path, model.parts[i], limited, angles[known], arms[known], at[known, tendon])
-                )
-    return found
+        backwards = bool(data.xaxis[joint.id][1] > 0)
+        yield _Hinge(model.parts[i], tie.element.name, place, limited, backwards, float(data.qpos[place]), angles)
+
+
+def _of_points(model: Model, body: Body, hinge: _Hinge) -> Iterator[MomentArm]:
+    """The arms of paths through points over one hinge."""
+    mechanics, data, pose = body.model, body.data, body.data.qpos.copy()
+    angles = np.append(hinge.angles, hinge.now)
+    before, at, after = (_lengths(mechanics, data, pose, hinge.place, angles + turn) for turn in (-_TURN, 0.0, _TURN))
+    for i, tie in body.assembly.reads:
+        if tie.field != "ten_length" or model.parts[i].type.kind != "path":
+            continue
+        tendon, path = tie_place(mechanics, tie), model.parts[i]
+        arms = -(after[:, tendon] - before[:, tendon]) / (2 * _TURN)
+        now = float(arms[-1])
+        # Where the path slips within the tiny turn, the quotient means nothing.
+        arms[np.abs(arms) > 10] = np.nan
+        known = np.flatnonzero(~np.isnan(arms[:-1]))
+        if np.nanmax(np.abs(arms)) > _NOTHING:
+            muscle = path.address.rpartition(".")[0] or path.address
+            yield hinge.arm(muscle, path, True, now, angles[known], arms[known], at[known, tendon])
 
 
 def _lengths(mechanics: Any, data: Any, pose: Floats, place: int, angles: Floats) -> Floats:

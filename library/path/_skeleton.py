@@ -11,7 +11,7 @@ class Skeleton(Component):
     tension = Input("N", "Force along the path, positive in tension.", sums=True)
     length = Output("m", "Length of the path.")
     velocity = Output("m/s", "Lengthening velocity of the path.")
-    moment = Output("N m", "Moment that opens the joint; send it there with to:.")
+    moment = Output("N m", "Moment that makes the joint's angle grow; send it there with to:.")
 
     lengths = Curve("length", "angle", (-1.5, 1.5), "Length over the angle.")
     moments = Curve("moment", "tension", (0, 1000), "Moment over the force; its slope is the arm.")

@@ -4,13 +4,13 @@ from gaitsim.component import Component, Curve, Input, Link, Output, Parameter
 class ConstantArm(Component):
     """A path around one joint at a constant distance, such as the knee extensor of Geyer et al. (2003).
 
-    Opening the joint shortens the path where d > 0: l = l_ref - rho d (phi - phi_ref). The pennation
+    The path shortens as the joint's angle grows where d > 0: l = l_ref - rho d (phi - phi_ref). The pennation
     factor rho scales the length only, not the moment d F (Geyer & Herr 2010): with rho < 1 the joint gets
     1 / rho of the work that the muscle gives. With rho = 1 both agree.
     """
 
     moment_arm = Parameter(
-        "m", "Distance d of the path from the joint's axis; negative if it closes the joint.", bounds=(-1, 1)
+        "m", "Distance d of the path from the joint's axis; negative if the joint's angle shrinks.", bounds=(-1, 1)
     )
     reference_length = Parameter(
         "m", "Length l_ref at the reference angle; unsaid, the muscle's fiber and tendon at rest.", bounds=(0, 3)
@@ -33,7 +33,7 @@ class ConstantArm(Component):
     tension = Input("N", "Force along the path, positive in tension.", sums=True)
     length = Output("m", "Length of the path.")
     velocity = Output("m/s", "Lengthening velocity of the path.")
-    moment = Output("N m", "Moment that opens the joint.")
+    moment = Output("N m", "Moment that makes the joint's angle grow.")
 
     lengths = Curve(
         "length",

@@ -6,13 +6,13 @@ from gaitsim.component import Component, Curve, Input, Link, Output, Parameter
 class CosineArm(Component):
     """A path around one joint whose moment arm is r = r_0 cos(phi - phi_max) (Geyer & Herr 2010).
 
-    l = l_ref - rho r_0 [sin(phi - phi_max) - sin(phi_ref - phi_max)]: opening the joint shortens the
-    path where r > 0. The pennation factor rho scales the length only, not the moment r F: with rho < 1 the joint
+    l = l_ref - rho r_0 [sin(phi - phi_max) - sin(phi_ref - phi_max)]: the path shortens as the angle grows
+    where r > 0. The pennation factor rho scales the length only, not the moment r F: with rho < 1 the joint
     gets 1 / rho of the work that the muscle gives. With rho = 1 both agree. In a joint that counts its angle
     otherwise, phi_max and phi_ref are such angles too, and r_0 has the sign of the moment that the joint takes.
     """
 
-    moment_arm = Parameter("m", "Largest moment arm r_0; negative if the path closes the joint.", bounds=(-1, 1))
+    moment_arm = Parameter("m", "Largest moment arm r_0; negative if the joint's angle shrinks.", bounds=(-1, 1))
     max_angle = Parameter("rad", "Joint angle phi_max at which the arm is r_0.", bounds=(-6.3, 6.3))
     reference_length = Parameter(
         "m", "Length l_ref at the reference angle; unsaid, the muscle's fiber and tendon at rest.", bounds=(0, 3)
@@ -35,7 +35,7 @@ class CosineArm(Component):
     tension = Input("N", "Force along the path, positive in tension.", sums=True)
     length = Output("m", "Length of the path.")
     velocity = Output("m/s", "Lengthening velocity of the path.")
-    moment = Output("N m", "Moment that opens the joint.")
+    moment = Output("N m", "Moment that makes the joint's angle grow.")
 
     curve = Curve(
         of="length",

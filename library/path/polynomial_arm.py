@@ -6,10 +6,12 @@ class PolynomialArm(Component):
 
     r = r_0 + r_1 a + r_2 a^2 + r_3 a^3 with a = phi - phi_ref, and l = l_ref - integral of r over a. So force times
     shortening is moment times turning: the path makes no work and takes none, whatever the muscle's pennation. That
-    is the muscle's own. Opening the joint shortens the path where r > 0.
+    is the muscle's own. The path shortens as the angle grows where r > 0.
     """
 
-    moment_arm = Parameter("m", "r_0: arm at the reference angle; negative if it closes the joint.", bounds=(-1, 1))
+    moment_arm = Parameter(
+        "m", "r_0: arm at the reference angle; negative if the joint's angle shrinks.", bounds=(-1, 1)
+    )
     arm_slope = Parameter(
         "m/rad", "r_1.", default=0, bounds=(-10, 10), source="definition: a constant arm"
     )
@@ -33,7 +35,7 @@ class PolynomialArm(Component):
     tension = Input("N", "Force along the path, positive in tension.", sums=True)
     length = Output("m", "Length of the path.")
     velocity = Output("m/s", "Lengthening velocity of the path.")
-    moment = Output("N m", "Moment that opens the joint.")
+    moment = Output("N m", "Moment that makes the joint's angle grow.")
 
     lengths = Curve(
         "length",

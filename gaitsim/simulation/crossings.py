@@ -1,0 +1,127 @@
+"""Where paths that are moment arms cross hinges: followed from a muscle's path along its moment to a coordinate."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+
+import mujoco
+import numpy as np
+
+from gaitsim.compiler.mjcf import Assembly
+from gaitsim.compiler.program import Floats
+from gaitsim.compiler.ties import Tie
+from gaitsim.model import Model, Part
+from gaitsim.simulation.trial import Trial
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """A part of a path at one hinge.
+
+    muscle: the address of the part with an activation that the path is in.
+    path: the address of the whole path.
+    source: the component whose moment it is.
+    joint: MuJoCo's name of the hinge; `hinge` is the part, `neutral` its angle in the posture of the model file.
+    share: how much of the moment turns the coordinate: 1, or -1.
+    """
+
+    muscle: str
+    path: str
+    source: Part
+    hinge: Part
+    joint: str
+    neutral: float
+    share: float
+    moment: str
+    angles: tuple[str, ...]
+    trial: Trial = field(repr=False, compare=False)
+
+    def arm(self, angle: float) -> float:
+        """The arm at an angle of the hinge in rad, in m: positive where tension makes the angle grow."""
+        return self.share * _slope(self.trial, "tension", self.moment, dict.fromkeys(self.angles, angle))
+
+    def length(self, angle: float) -> float:
+        """The length of this part of the path, in m."""
+        self.trial.put({**dict.fromkeys(self.angles, angle), "tension": 0.0}).call("output", "normal")
+        return float(self.trial.y.length)
+
+    def arms(self, angles: Floats) -> tuple[Floats, Floats]:
+        """Arms and lengths over angles."""
+        return np.array([self.arm(a) for a in angles]), np.array([self.length(a) for a in angles])
+
+
+def crossings(model: Model, assembly: Assembly) -> list[Crossing]:
+    """Paths of muscles whose moment reaches a hinge; others, such as those of massless legs, are left out."""
+    return list(_Finder(model, assembly).found())
+
+
+class _Finder:
+    """Follows each path's moment to the coordinate that it turns."""
+
+    def __init__(self, model: Model, assembly: Assembly) -> None:
+        self.model, self.assembly, self.values = model, assembly, model.values()
+        self.parts = {part.address: part for part in model.parts}
+        self.turned = self._hinges(assembly.applies, "qfrc_applied")
+        self.told = self._hinges(assembly.reads, "qpos")
+
+    def found(self) -> Iterator[Crossing]:
+        """Each crossing, in the order of the model."""
+        for connection in self.model.connections:
+            source, _, moment = connection.source.rpartition(".")
+            target, _, port = connection.target.rpartition(".")
+            muscle = self._muscle(source) if target in self.turned else ""
+            if muscle:
+                path = ".".join(source.split(".")[: muscle.count(".") + 2])
+                yield from self._at((muscle, path), self.parts[source], moment, self.parts[target], port)
+
+    def _hinges(self, ties: Sequence[tuple[int, Tie]], field: str) -> dict[str, list[tuple[str, Tie]]]:
+        """Of each part: hinges of which it has such a field, and how."""
+        found: defaultdict[str, list[tuple[str, Tie]]] = defaultdict(list)
+        for i, tie in ties:
+            if tie.field == field and tie.element is not None:
+                joint = self.assembly.model.joint(tie.element.name)
+                if joint.type[0] == mujoco.mjtJoint.mjJNT_HINGE:
+                    found[self.model.parts[i].address].append((tie.element.name, tie))
+        return dict(found)
+
+    def _muscle(self, path: str) -> str:
+        """The part with an activation that a path is in; empty for none, and for what is no path."""
+        owner = path.rpartition(".")[0] if self.parts[path].type.kind == "path" else ""
+        while owner and not (owner in self.parts and "activation" in self.parts[owner].type.outputs):
+            owner = owner.rpartition(".")[0]
+        return owner
+
+    def _at(self, who: tuple[str, str], path: Part, moment: str, hinge: Part, port: str) -> Iterator[Crossing]:
+        """What an output of a path does by an input of a hinge's part: at one joint, or nowhere."""
+        for joint, tie in self.turned[hinge.address]:
+            coordinate = next((told.port for name, told in self.told.get(hinge.address, []) if name == joint), "")
+            neutral = float(self.assembly.model.joint(joint).qpos0[0])
+            share = tie.sign * self._reaching(hinge, port, tie.port, {coordinate: neutral} if coordinate else {})
+            angles = tuple(self._fed(f"{hinge.address}.{coordinate}", path))
+            if share:
+                yield Crossing(*who, path, hinge, joint, neutral, share, moment, angles, self._trial(path))
+
+    def _fed(self, source: str, part: Part) -> list[str]:
+        """The inputs of a part that a signal goes to."""
+        ends = [c.target.rpartition(".") for c in self.model.connections if c.source == source]
+        return [port for owner, _, port in ends if owner == part.address]
+
+    def _reaching(self, part: Part, port: str, applied: str, at: Mapping[str, float]) -> float:
+        """How much of an input is in what the part applies: the input itself, or an output with it."""
+        return float(port == applied) if applied in part.type.inputs else _slope(self._trial(part), port, applied, at)
+
+    def _trial(self, part: Part) -> Trial:
+        """A part at its own numbers."""
+        own = {name: self.values[number] for name, number in part.numbers.items() if name in part.type.parameters}
+        return Trial(part.type).put(own | {name: self.values[number] for name, number in part.constants.items()})
+
+
+def _slope(trial: Trial, port: str, output: str, at: Mapping[str, float]) -> float:
+    """How much an output grows with an input from 0 to 1, in SI."""
+    levels = []
+    for level in (0.0, 1.0):
+        trial.put({**at, port: level}).call("output", "normal")
+        levels.append(float(getattr(trial.y, output)))
+    return levels[1] - levels[0]
