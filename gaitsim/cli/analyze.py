@@ -227,8 +227,12 @@ def _said_lacking(replays: list[Replay], words: list[str]) -> None:
             console.say(f"{text}: {', '.join(without)} has no such signal")
 
 
+_TIME = "write a time, such as '2 s' or '300 ms'."
+
+
 def _seconds(option: str, text: str | None) -> float | None:
     """A time such as '2 s', '300 ms' or 2. Errors: Usage."""
+    from gaitsim.spec.quantity import in_plain_letters
     from gaitsim.units import UnknownUnit, parse_quantity, parse_unit
 
     if text is None:
@@ -237,8 +241,8 @@ def _seconds(option: str, text: str | None) -> float | None:
         quantity = parse_quantity(text)
     except UnknownUnit:
         quantity = None
-    if quantity is None or quantity.unit.dimension not in (parse_unit("s").dimension, parse_unit("1").dimension):
-        raise Usage(f"{option} {text}: write a time, such as '2 s' or '300 ms'.")
+    if quantity is None or (quantity.unit.text != "1" and quantity.unit.dimension != parse_unit("s").dimension):
+        raise Usage(f"{option} {text}: {in_plain_letters(text) or _TIME}")
     return quantity.value
 
 
@@ -324,6 +328,7 @@ def _data(replay: Replay) -> dict[str, Any]:
         "reason": outcome.reason or None,
         "score": outcome.score,
         "measures": dict(outcome.metrics),
+        "units": replay.model.metrics,
         "gait": gait_numbers(replay),
         "norms": norm_numbers(replay),
     }

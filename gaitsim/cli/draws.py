@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from gaitsim.cli import console
 from gaitsim.errors import Fault, InvalidSpec, Mark, Usage
+from gaitsim.spec.quantity import in_plain_letters
 from gaitsim.units import UnknownUnit, parse_quantity
 
 if TYPE_CHECKING:
@@ -128,5 +129,6 @@ def _share(text: str) -> float:
     if quantity is not None and quantity.unit.text == "1" and quantity.value >= 1:
         raise Usage(f"--within {text}: without its sign this is {100 * quantity.value:g} %; write '{text.strip()} %'.")
     if quantity is None or not quantity.unit.dimension.plain or not 0 <= quantity.value <= 1:
-        raise Usage(f"--within {text}: this is a share from 0 % to 100 %; write such as '1 %'.")
+        move = in_plain_letters(text) or "this is a share from 0 % to 100 %; write such as '1 %'."
+        raise Usage(f"--within {text}: {move}")
     return quantity.value

@@ -363,6 +363,10 @@ def test_results_that_are_none(harm: Callable[[Path], None], swung: Path, run: R
 USAGE = {
     ("--against", "pivot.angle"): "--against pivot.angle: name what is drawn against it, such as --plot '*.force'.",
     ("--from-time", "2 kg"): "--from-time 2 kg: write a time, such as '2 s' or '300 ms'.",
+    ("--every", "50 %"): "--every 50 %: write a time, such as '2 s' or '300 ms'.",
+    ("--from-time", "0,5 s"): (
+        '--from-time 0,5 s: "0,5 s" is no quantity here: numbers have a point, no comma; write "0.5 s".'
+    ),
     ("--every", "soon"): "--every soon: write a time, such as '2 s' or '300 ms'.",
     ("--to-time", "late"): "--to-time late: write a time, such as '2 s' or '300 ms'.",
     ("--from-time", "9"): "spec: nothing to look at from 9 s; the run goes from 0 s to 5.999 s.",
