@@ -26,8 +26,12 @@ def source_of_spec(spec: Path, settings: list[str] | None, folders: list[Path] |
     if owner is None or not (owner == spec or _tunes_what(source, owner, folders)):
         return source
     path = tuned_path(owner)
-    tuned_there = read_tuned(path, source.model().free)
+    free = source.model().free
+    tuned_there = read_tuned(path, free)
     notice = f"tuned values from {path} ({tuned_there.result}); --start ignores them"
+    unused = [address for address in tuned_there.values if address not in {each.address for each in free}]
+    if unused and owner == spec:
+        notice += f"; not tuned here, so without effect: {', '.join(unused)}"
     return replace(source, starts=tuned_there.values, origin=str(path), notices=(notice,))
 
 

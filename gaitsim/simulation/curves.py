@@ -189,12 +189,17 @@ def _of_function(
     given = Trial(kind).put(numbers).p
     wanted = function.__code__.co_varnames[: function.__code__.co_argcount]
     fixed = {n: getattr(given, n) for n in wanted if n in kind.parameters}
-    fixed |= {n: getattr(given, v) if isinstance(v, str) else v for n, v in at.items()}
+    fixed |= {n: getattr(given, v) if isinstance(v, str) else _in_si(kind, n, v) for n, v in at.items()}
     x = np.linspace(*curve.span, _POINTS)
     factor = parse_unit(curve.over_unit).factor
     with np.errstate(all="ignore"):
         y = [float(function(**(fixed | {curve.over: np.float64(value * factor)}))) for value in x]
     return x, np.array(y) / parse_unit(curve.unit).factor
+
+
+def _in_si(kind: Primitive, name: str, value: float) -> float:
+    """An argument of a function in SI: one that is a parameter is given in its unit, another as it is."""
+    return parse_unit(kind.parameters[name].unit).to_si(value) if name in kind.parameters else value
 
 
 def _swept(trial: Trial, curve: Curve) -> tuple[Floats, Floats]:

@@ -244,3 +244,10 @@ def test_draws_keep_values_in_si_and_metrics_in_their_units(command: Any) -> Non
     assert command("results", "verify", ended.data["result"]).code == 0
     again = command("run", ended.data["result"], "--candidate", "2", "--no-save", "--json")
     assert again.data["metrics"] == ended.data["rows"][1]["metrics"]
+
+
+def test_a_tuned_value_that_is_tuned_no_more_is_told(searched: Path, command: Any) -> None:
+    ended = command("run", "spec.yaml", "--no-save", "--json", "--set", "odd.angle=30 deg")
+    rule = "--start ignores them; not tuned here, so without effect: odd.angle"
+    assert f"tuned values from spec.tuned.yaml ({searched}); {rule}\n" in ended.err
+    assert ended.data["metrics"]["told"] == pytest.approx(30)
