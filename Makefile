@@ -32,9 +32,8 @@ test-all: check ## check, then all tests, with long physics and killed searches:
 
 bench: $(READY) ## time steps, whole commands, growing models, and workers (four minutes)
 	.venv/bin/python bench/bench.py $(BENCH)
-	.venv/bin/python bench/overhead.py
 
-bench-page: $(READY) ## the same without workers, as docs/benchmarks.md
+bench-page: $(READY) ## the same, as docs/benchmarks.md
 	.venv/bin/python bench/bench.py --page docs/benchmarks.md
 
 muscles: $(READY) ## tune the hopper with every muscle model: height, work, wall time (some minutes)

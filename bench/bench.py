@@ -13,11 +13,12 @@ from pathlib import Path
 import rows
 from growth import growth
 from rows import Report
+from searches import searches
 from starts import starts
 from steps import steps
 
 SECONDS = 180.0
-PARTS = {"steps": steps, "starts": starts, "growth": growth}
+PARTS = {"steps": steps, "starts": starts, "searches": searches, "growth": growth}
 
 
 def arguments() -> argparse.Namespace:
