@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 from gaitsim.errors import Mark, SimulationFailed
 from gaitsim.parts.primitive import Primitive
@@ -191,10 +192,28 @@ class Model:
         Errors: SimulationFailed if an expression has no value there.
         """
         chosen = self.start if candidate is None else candidate
-        values: list[float] = []
-        for number in self.numbers:
-            values.append(_value(number, values, chosen))
+        values = [*self._fixed]
+        for i in (i for i, varies in enumerate(self.varying) if varies):
+            values[i] = _value(self.numbers[i], values, chosen)
         return values
+
+    @cached_property
+    def varying(self) -> tuple[bool, ...]:
+        """Which numbers differ between candidates: tuned ones, and what is computed from them."""
+        found: list[bool] = []
+        for number in self.numbers:
+            read = [index for _, index in number.expression.names] if number.expression else []
+            read += [number.fraction_of] if number.fraction_of is not None else []
+            found.append(number.free is not None or any(found[index] for index in read))
+        return tuple(found)
+
+    @cached_property
+    def _fixed(self) -> tuple[float, ...]:
+        """The numbers that all candidates share; nan where they differ."""
+        values: list[float] = []
+        for number, varies in zip(self.numbers, self.varying, strict=True):
+            values.append(math.nan if varies else _value(number, values, ()))
+        return tuple(values)
 
     @property
     def metrics(self) -> dict[str, str]:

@@ -44,12 +44,14 @@ class ProgressLine:
 
     def _text(self, progress: Progress, seconds: float) -> str:
         rate = progress.evaluated_now / seconds if seconds > 0 else 0.0
-        done = max(progress.generation - progress.began + 1, 1)
-        left = (self._generations - progress.generation) * seconds / done if progress.evaluated_now else 0.0
+        population = progress.asked or len(progress.last)
+        missing = (self._generations - progress.generation) * population - progress.arrived
+        left = _clock(missing / rate) if rate else "-"
         score = progress.best.verdict.score if progress.best else None
         return (
             f"generation {progress.generation}/{self._generations}  best {console.shown(score)}  "
-            f"{progress.evaluations} evaluations, {progress.failed} failed, {rate:.1f}/s, {_clock(left)} left at most"
+            f"{progress.evaluations + progress.arrived} evaluations, {progress.failed} failed, {rate:.1f}/s, "
+            f"{left} left at most"
         )
 
 

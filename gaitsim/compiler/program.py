@@ -242,22 +242,12 @@ class Program:
         """Whether a connection has a delay; a fixed delay of zero is none."""
         if connection.delay is None:
             return False
-        return self._varying[connection.delay] or self._starts[connection.delay] != 0
+        return self.model.varying[connection.delay] or self._starts[connection.delay] != 0
 
     @cached_property
     def _starts(self) -> list[float]:
         """Every number at the start of a search."""
         return self.model.values()
-
-    @cached_property
-    def _varying(self) -> tuple[bool, ...]:
-        """Which numbers differ between candidates: tuned ones, and what is computed from them."""
-        found: list[bool] = []
-        for number in self.model.numbers:
-            read = [index for _, index in number.expression.names] if number.expression else []
-            read += [number.fraction_of] if number.fraction_of is not None else []
-            found.append(number.free is not None or any(found[index] for index in read))
-        return tuple(found)
 
 
 def measures(model: Model) -> list[tuple[int, Part]]:

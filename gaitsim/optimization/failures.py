@@ -32,4 +32,7 @@ class Failures:
 
 def reason_of(evaluation: Evaluation) -> str:
     """Why a candidate has no score, in words."""
-    return evaluation.verdict.reason or "there was no score"
+    verdict = evaluation.verdict
+    if verdict.status == "stopped":
+        return f"stopped by {verdict.reason}, without a score"
+    return verdict.reason or "there was no score"

@@ -40,14 +40,16 @@ class Budget:
 class Progress:
     """Where a search stands.
 
-    began: the generation that the first new evaluation was of; what came before was in the journal.
+    generation, evaluations: whole ones, and all their evaluations. asked, arrived: of the generation that is being
+    evaluated, how many candidates it has and how many are known. evaluated_now: in this session.
     last: the evaluations of the last whole generation.
     """
 
     generation: int = 0
     evaluations: int = 0
+    asked: int = 0
+    arrived: int = 0
     evaluated_now: int = 0
-    began: int = 0
     failed: int = 0
     failures: Failures = field(default_factory=Failures)
     best: Evaluation | None = None
@@ -95,13 +97,16 @@ class Search:
         """All evaluations of one generation, in order: from the journal, or made now."""
         candidates = [Candidate(generation, i, x) for i, x in enumerate(values)]
         found = self.journal.known(candidates)
+        self.progress.asked, self.progress.arrived = len(candidates), len(found)
         new = self.evaluator([c for c in candidates if c.index not in found])
         self._close_last()  # while the workers are at this one
         for evaluation, seconds, where in new:
             self.journal.arrived(evaluation)
             self.took(evaluation.candidate, seconds, where)
             found[evaluation.candidate.index] = evaluation
-            self._count_one(generation)
+            self.progress.arrived += 1
+            self.progress.evaluated_now += 1
+            self.watch(self.progress)
         evaluations = [found[c.index] for c in candidates]
         self._count(generation, evaluations)
         return evaluations
@@ -110,16 +115,11 @@ class Search:
         if self.progress.last:
             self.journal.close_generation(self.progress.last)
 
-    def _count_one(self, generation: int) -> None:
-        progress = self.progress
-        progress.began = progress.began if progress.evaluated_now else generation
-        progress.evaluated_now += 1
-        self.watch(progress)
-
     def _count(self, generation: int, evaluations: list[Evaluation]) -> None:
         progress = self.progress
         progress.generation, progress.last = generation, evaluations
         progress.evaluations += len(evaluations)
+        progress.asked = progress.arrived = 0
         for evaluation in evaluations:
             if evaluation.failed:
                 progress.failed += 1

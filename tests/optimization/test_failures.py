@@ -15,6 +15,8 @@ REASONS = (
     ("failed", "a gives no finite number in output at 2.25 s: force = nan, length = 3"),
     ("failed", "the mechanics diverged in knee_l.angle at 4 s; try a shorter step"),
     ("completed", ""),
+    ("stopped", "upright"),
+    ("stopped", "upright"),
 )
 
 
@@ -23,6 +25,7 @@ def test_kinds_are_counted_and_the_first_is_the_example() -> None:
     for i, (status, reason) in enumerate(REASONS):
         failures.add(Evaluation(Candidate(1, i, (0.0,)), Verdict(status, reason, None, {}, 0.0, 0)))
     found = [(count, example.candidate.name) for count, example in failures.most_common]
-    assert found == [(3, "1:0"), (2, "1:5"), (1, "1:1"), (1, "1:3"), (1, "1:4"), (1, "1:8")]
+    assert found == [(3, "1:0"), (2, "1:5"), (2, "1:9"), (1, "1:1"), (1, "1:3"), (1, "1:4"), (1, "1:8")]
     assert reason_of(failures.most_common[-1][1]) == "there was no score"
+    assert reason_of(failures.most_common[2][1]) == "stopped by upright, without a score"
     assert reason_of(failures.most_common[0][1]) == REASONS[0][1]
