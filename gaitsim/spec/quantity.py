@@ -24,6 +24,7 @@ _EXAMPLES = {
 # Letters that people write, and what a spec has instead.
 _PLAIN = {
     "[\N{MINUS SIGN}\N{EN DASH}]": "-",
+    r"(?<=\d)\s*[\N{MIDDLE DOT}\N{DOT OPERATOR}\N{MULTIPLICATION SIGN}x*]\s*10\^([-+]?\d+)": r"e\1",
     r"(?<=\d)\s*\N{DEGREE SIGN}": " deg",
     "[\N{MICRO SIGN}\N{GREEK SMALL LETTER MU}]": "u",
     r"\s*[\N{MIDDLE DOT}\N{DOT OPERATOR}\N{MULTIPLICATION SIGN}\N{BULLET}]\s*": " ",
@@ -77,7 +78,7 @@ def in_plain_letters(text: str | float) -> str:
     choices = [choice for choice in dict.fromkeys((written.replace(",", "."), whole)) if _is_quantity(choice)]
     if not choices or choices == [text]:
         return ""
-    rule = "numbers have a point, no comma" if "," in written else "write units in plain letters"
+    rule = "numbers have a point, no comma" if "," in written else "a spec has plain letters"
     if "\N{MINUS SIGN}" in str(text) or "\N{EN DASH}" in str(text):
         rule = "a minus is the hyphen of the keyboard"
     return f'"{text}" is no quantity here: {rule}; write {" or ".join(_quoted(choice) for choice in choices)}.'
