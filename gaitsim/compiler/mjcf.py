@@ -19,7 +19,10 @@ from gaitsim.parts.load import function_of, raised
 _INTEGRATORS = {
     "euler": mujoco.mjtIntegrator.mjINT_EULER,
     "implicitfast": mujoco.mjtIntegrator.mjINT_IMPLICITFAST,
+    "rk4": mujoco.mjtIntegrator.mjINT_RK4,
 }
+
+AFTER_VELOCITIES = int(mujoco.mjtStage.mjSTAGE_VEL)  # what mj_step1 has done when mj_forwardSkip goes on
 
 
 @dataclass(frozen=True)
@@ -38,6 +41,11 @@ class Assembly:
     drawings: tuple[tuple[int, DrawnLine | DrawnForce], ...]
     touching: tuple[Touching, ...]
     lifts: tuple[str, ...]
+
+    @property
+    def runge_kutta(self) -> bool:
+        """Whether MuJoCo steps by rk4."""
+        return bool(self.model.opt.integrator == _INTEGRATORS["rk4"])
 
     @property
     def xml(self) -> str:
@@ -101,10 +109,20 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
 
 
 def _integrator(model: Model, compiled: Any) -> Any:
-    """The chosen one; or by itself Euler, unless an actuator has a force that depends on velocity."""
-    if model.simulate.integrator != "automatic":
-        return _INTEGRATORS[model.simulate.integrator]
-    if not compiled.actuator_gainprm[:, 2].any():
+    """The chosen one; or by itself Euler, unless an actuator has a force that depends on velocity.
+
+    Errors: InvalidSpec for rk4 if one has.
+    """
+    chosen = model.simulate.integrator
+    damped = compiled.actuator_gainprm[:, 2].nonzero()[0]
+    if chosen == "rk4" and damped.size:
+        address = _owner(compiled.actuator(int(damped[0])).name)
+        mark = next(part.mark for part in model.parts if part.address == address)
+        rule = "its velocity terms need an implicit scheme, and integrator: rk4 is explicit; choose automatic."
+        raise InvalidSpec(Fault(rule, mark, address))
+    if chosen != "automatic":
+        return _INTEGRATORS[chosen]
+    if not damped.size:
         return _INTEGRATORS["euler"]
     # Of a body alone MuJoCo keeps a diagonal mass matrix; implicitfast then drops how damping couples its coordinates.
     alone = compiled.body_simple[1:].any()

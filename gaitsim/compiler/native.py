@@ -43,6 +43,7 @@ START = {
 RUN = {
     **_TABLES,
     "ties": "pointer",
+    "written": "pointer",
     "first": "integer",
     "steps": "integer",
     "model": "shared",

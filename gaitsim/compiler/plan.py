@@ -46,7 +46,7 @@ class Plan:
     their own besides. lines: the output that each delay line keeps. signals: what is recorded, a place in the
     outputs or behind them in the states. reads: an output and whether it may change after the start, for each number
     read of MuJoCo. writes: (an output? its place, sign) for each number written there. coordinates: how many
-    positions and velocities MuJoCo has.
+    positions and velocities MuJoCo has. runge_kutta: whether MuJoCo steps by rk4.
     """
 
     pieces: tuple[Piece, ...]
@@ -60,6 +60,7 @@ class Plan:
     reads: tuple[tuple[int, bool], ...]
     writes: tuple[tuple[bool, int, float], ...]
     coordinates: tuple[int, int]
+    runge_kutta: bool
     states: int
     outputs: int
 
@@ -99,6 +100,7 @@ def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kerne
         tuple(reads),
         tuple(writes),
         (int(assembly.model.nq), int(assembly.model.nv)),
+        assembly.runge_kutta,
         program.states.size,
         program.outputs.size,
     )

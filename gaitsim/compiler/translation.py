@@ -13,6 +13,7 @@ from typing import Any
 from llvmlite import ir
 
 from gaitsim.compiler.kernel import STAGES
+from gaitsim.compiler.mjcf import AFTER_VELOCITIES
 from gaitsim.compiler.native import COMPLETED, DIVERGED, FRAME, PADDING, RUN, START, STOPPED, SUSPECT, padded
 from gaitsim.compiler.plan import Piece, Plan, Step
 from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, NOTHING, POINTER, SHORT, Writer
@@ -244,16 +245,18 @@ class Translation:
 
     def _one_step(self, f: Writer) -> None:
         b, plan = f.builder, self.plan
-        mechanics = [self._external(n, NOTHING, [POINTER, POINTER]) for n in ("mj_step1", "mj_step2")]
-        b.call(mechanics[0], [f.model, f.data])
+        b.call(self._external("mj_step1", NOTHING, [POINTER, POINTER]), [f.model, f.data])
         for i, (place, moves) in enumerate(plan.reads):
             if moves:
                 self._read(f, i, place)
         self._called(f, "outputs", [(call.piece, "output") for call in plan.calls if call.always])
         self._end_unless(f, self._table_is_finite(f, f.outputs, plan.outputs), SUSPECT)
-        for i, (of_outputs, place, sign) in enumerate(plan.writes, len(plan.reads)):
+        for i, (of_outputs, place, sign) in enumerate(plan.writes):
             value = f.load(f.outputs, place) if of_outputs else self._arriving(f, place)
-            b.store(b.fmul(value, DOUBLE(sign)), f.load(f.ties, i, POINTER))
+            value = b.fmul(value, DOUBLE(sign))
+            if plan.runge_kutta:
+                value = self._carried_on(f, i, value)
+            b.store(value, f.load(f.ties, len(plan.reads) + i, POINTER))
         row = self._row(f, f.step)
         for line, source in enumerate(plan.lines):
             f.store(f.load(f.outputs, source), row, line)
@@ -263,10 +266,27 @@ class Translation:
             self._end_unless(f, running, STOPPED + i)
         self._called(f, "updates", [(part, "update") for part in plan.updates])
         self._end_unless(f, self._table_is_finite(f, f.states, plan.states), SUSPECT)
-        b.call(mechanics[1], [f.model, f.data])
+        self._advance(f)
         tables = zip((f.qpos, f.qvel), plan.coordinates, strict=True)
         finite = [self._is_finite(f, table, size) for table, size in tables]
         self._end_unless(f, b.and_(*finite), DIVERGED)
+
+    def _carried_on(self, f: Writer, number: int, value: Any) -> Any:
+        """A value that is written, carried on to the middle of the step; before the first step it was the same."""
+        b, before = f.builder, f.load(f.written, number)
+        f.store(value, f.written, number)
+        carried = b.fsub(b.fmul(DOUBLE(1.5), value), b.fmul(DOUBLE(0.5), before))
+        return b.select(b.fcmp_unordered("uno", before, before), value, carried)
+
+    def _advance(self, f: Writer) -> None:
+        """The second half of MuJoCo's step."""
+        if not self.plan.runge_kutta:
+            f.builder.call(self._external("mj_step2", NOTHING, [POINTER, POINTER]), [f.model, f.data])
+            return
+        forward = self._external("mj_forwardSkip", NOTHING, [POINTER, POINTER, SHORT, SHORT])
+        f.builder.call(forward, [f.model, f.data, SHORT(AFTER_VELOCITIES), SHORT(0)])
+        advance = self._external("mj_RungeKutta", NOTHING, [POINTER, POINTER, SHORT])
+        f.builder.call(advance, [f.model, f.data, SHORT(4)])
 
     def _table_is_finite(self, f: Writer, table: Any, size: int) -> Any:
         return f.builder.call(self.names["finite_padded"], [table, INTEGER(padded(size))])

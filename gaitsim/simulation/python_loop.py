@@ -15,7 +15,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gaitsim.compiler.mjcf import tie_place
+from gaitsim.compiler.mjcf import AFTER_VELOCITIES, tie_place
 from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
 from gaitsim.parts.load import function_of
 from gaitsim.simulation.body import Body
@@ -49,7 +49,7 @@ class Normal:
     def run(self, values: Sequence[float], steps: int, recorded: bool) -> Ending:
         """Simulate one candidate's numbers."""
         self.body.pose(values)
-        tables = Tables.of(self.program, values, self.body.initial_states(values))
+        tables = Tables.of(self.program, values, self.body.initial_states(values), len(self.body.assembly.applies))
         checked = Checked(self.program, self.body, tables)
         record: list[Floats] = []
         done, failure = 0, None
@@ -139,7 +139,7 @@ class Checked:
         for part in self.program.updates:
             self._gather(part, step)
             self._call(part, "update", step)
-        mujoco.mj_step2(self.body.model, self.body.data)
+        self._advance()
 
     def _fill_delays(self) -> None:
         """Before the start, a delayed signal was what it is at the start."""
@@ -202,9 +202,26 @@ class Checked:
     def _apply(self, step: int) -> None:
         for part in self.body.appliers:
             self._gather(part, step)
-        for part, tie in self.body.assembly.applies:
-            value = getattr(self._sender(part, tie.port), tie.port)
-            self.body.array(tie.field)[tie_place(self.body.model, tie)] = tie.sign * value
+        for k, (part, tie) in enumerate(self.body.assembly.applies):
+            value = tie.sign * getattr(self._sender(part, tie.port), tie.port)
+            if self.body.assembly.runge_kutta:
+                value = self._carried_on(k, value)
+            self.body.array(tie.field)[tie_place(self.body.model, tie)] = value
+
+    def _carried_on(self, number: int, value: Any) -> Any:
+        """A value that is written, carried on to the middle of the step; before the first step it was the same."""
+        before = self.tables.written[number]
+        self.tables.written[number] = value
+        return value if np.isnan(before) else 1.5 * value - 0.5 * before
+
+    def _advance(self) -> None:
+        """The second half of MuJoCo's step."""
+        model, data = self.body.model, self.body.data
+        if self.body.assembly.runge_kutta:
+            mujoco.mj_forwardSkip(model, data, AFTER_VELOCITIES, 0)
+            mujoco.mj_RungeKutta(model, data, 4)
+        else:
+            mujoco.mj_step2(model, data)
 
     def _sender(self, part: int, port: str) -> View:
         _, u, _, y = self.views[part]

@@ -111,6 +111,7 @@ class Rapid:
             "places": tables.places,
             "values": tables.values,
             "ties": addresses,
+            "written": tables.written,
             "qpos": body.data.qpos,
             "qvel": body.data.qvel,
             "reached": step,
@@ -147,7 +148,7 @@ class Rapid:
         return of_nothing_found(self.program, noticed.step)
 
     def _tables(self, values: Sequence[float]) -> Tables:
-        return Tables.of(self.program, values, self.body.initial_states(values))
+        return Tables.of(self.program, values, self.body.initial_states(values), len(self.body.assembly.applies))
 
     def _bound(self) -> tuple[_Native, Integers]:
         """Native code for the present mechanics, and the addresses in MuJoCo's data that it reads and writes.

@@ -17,7 +17,7 @@ class Tables:
 
     past: a row for each of the last steps, a power of two of them, with a number for each delay line. whole, rest:
     each line's delay in steps. before: what it gives before the start; nan for what is sent at the start.
-    places, values: initial values of states.
+    places, values: initial values of states. written: what was last written into MuJoCo, for rk4; nan before.
     """
 
     p: Floats
@@ -31,10 +31,11 @@ class Tables:
     before: Floats
     places: Integers
     values: Floats
+    written: Floats
 
     @staticmethod
-    def of(program: Program, values: Sequence[float], initial: dict[int, float]) -> Tables:
-        """The tables of a candidate before its start; `initial`: place of a state -> value.
+    def of(program: Program, values: Sequence[float], initial: dict[int, float], writes: int) -> Tables:
+        """The tables of a candidate before its start; `initial`: place of a state -> value; `writes`: into MuJoCo.
 
         Errors: SimulationFailed for a delay that an expression makes shorter than a step.
         """
@@ -56,4 +57,5 @@ class Tables:
             np.array(before, dtype=np.float64),
             np.array(list(initial), dtype=np.int64),
             np.array(list(initial.values()), dtype=np.float64),
+            np.full(writes, np.nan),
         )
