@@ -4,12 +4,13 @@ from gaitsim.component import Component, Curve, Input, Link, Output, Parameter
 
 
 class CosineArm(Component):
-    """A path around one joint whose moment arm is r = r_0 cos(phi - phi_max) (Geyer & Herr 2010).
+    """A path around one joint whose moment arm is r = r_0 cos(s (phi - phi_max)), s = 1 in Geyer & Herr (2010).
 
-    l = l_ref - rho r_0 [sin(phi - phi_max) - sin(phi_ref - phi_max)]: the path shortens as the angle grows
+    l = l_ref - rho r_0 / s [sin(s (phi - phi_max)) - sin(s (phi_ref - phi_max))]: the path shortens as the angle grows
     where r > 0. The pennation factor rho scales the length only, not the moment r F: with rho < 1 the joint
     gets 1 / rho of the work that the muscle gives. With rho = 1 both agree. In a joint that counts its angle
     otherwise, phi_max and phi_ref are such angles too, and r_0 has the sign of the moment that the joint takes.
+    Where an arm falls from r_0 to r_min at phi_min (Song & Geyer 2015), s = acos(r_min / r_0) / |phi_min - phi_max|.
     """
 
     moment_arm = Parameter("m", "Largest moment arm r_0; negative if the joint's angle shrinks.", bounds=(-1, 1))
@@ -24,6 +25,9 @@ class CosineArm(Component):
         default=1,
         bounds=(0, 1),
         source="definition: fibers along the path",
+    )
+    angle_scale = Parameter(
+        "1", "s: how fast the arm falls off its largest value.", default=1, bounds=(1e-3, 10), source="geyer2010"
     )
     joint = Link(
         "The joint that the path crosses, instead of angle:, angular_velocity: and to:.",
@@ -53,9 +57,9 @@ class CosineArm(Component):
 
     @staticmethod
     def output(p, u, x, y):
-        turned = u.angle - p.max_angle
+        turned = p.angle_scale * (u.angle - p.max_angle)
         arm = p.moment_arm * math.cos(turned)
-        change = math.sin(turned) - math.sin(p.reference_angle - p.max_angle)
-        y.length = p.reference_length - p.pennation * p.moment_arm * change
+        change = math.sin(turned) - math.sin(p.angle_scale * (p.reference_angle - p.max_angle))
+        y.length = p.reference_length - p.pennation * p.moment_arm * change / p.angle_scale
         y.velocity = -p.pennation * arm * u.angular_velocity
         y.moment = arm * u.tension
