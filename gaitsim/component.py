@@ -32,6 +32,7 @@ __all__ = [
     "Parameter",
     "Part",
     "Points",
+    "Refused",
     "Series",
     "State",
     "StepLimit",
@@ -242,6 +243,10 @@ Declaration = (
     | StepLimit
     | Curve
 )
+
+
+class Refused(ValueError):
+    """Raised by a `build` whose numbers make no such part; the words go to the part's place in the spec."""
 
 
 class Component:

@@ -37,6 +37,7 @@ class Mechanics:
     drawings: list[DrawnLine | DrawnForce] = field(default_factory=list)
     touching: list[Touching] = field(default_factory=list)
     lifts: list[str] = field(default_factory=list)
+    begins: list[tuple[str, float, float]] = field(default_factory=list)
 
     @property
     def _info(self) -> str:
@@ -71,18 +72,20 @@ class Mechanics:
         damping: float = 0.0,
         limits: Sequence[float] | None = None,
         neutral: float = 0.0,
+        armature: float = 0.0,
     ) -> Element:
         """A rotation of the child about an axis; damping in N m s/rad.
 
         Its coordinate is `neutral` (rad) where the frames are aligned. Limits in rad are told to
-        whoever plots the joint; what happens there is the part's own.
+        whoever plots the joint; what happens there is the part's own. The armature (kg m^2) is
+        inertia of this coordinate alone, such as that of a drive's rotor.
         """
         x, y, z = (float(v) for v in axis)
         # An axis is a pseudovector: mirrored in y, its x and z turn round and its y stays.
         turned = (-x, y, -z) if self.part.mirrored else (x, y, z)
         joint = self._joint(mujoco.mjtJoint.mjJNT_HINGE, turned, suffix, damping)
         made = self.spec.joint(joint.name)
-        made.ref = float(neutral)
+        made.ref, made.armature = float(neutral), float(armature)
         if limits is not None:
             made.range, made.limited = [float(limit) for limit in limits], False
         return joint
@@ -235,6 +238,10 @@ class Mechanics:
         """Let this vertical joint put the lowest place that touches on the ground, unless `initial:` sets it."""
         self.lifts.append(lift.name)
 
+    def begins_at(self, joint: Element, position: float, velocity: float) -> None:
+        """Let a joint begin at a coordinate and a velocity of its own, in SI, unless `initial:` sets them."""
+        self.begins.append((joint.name, float(position), float(velocity)))
+
     def position_of(self, place: Point, surface: str = "", suffix: str = "position") -> Element:
         """A sensor of where a place is in the world, or on the ground of an inner part: three numbers, in m."""
         sensor = self._sensor(suffix, mujoco.mjtSensor.mjSENS_FRAMEPOS, self._site(f"{suffix}.origin", place))
@@ -371,7 +378,7 @@ def _drive(actuator: Any, gain: Vector, limits: Vector | None) -> None:
 
 
 def numbers_of(part: Part, values: Sequence[float], frames: Frames) -> SimpleNamespace:
-    """The `p` of a part's `build`: parameters, options, and points on their bodies."""
+    """The `p` of a part's `build`: parameters, options, recorded curves, and points on their bodies."""
     numbers = {name: values[index] for name, index in part.numbers.items()}
     points = {
         name: [
@@ -380,7 +387,8 @@ def numbers_of(part: Part, values: Sequence[float], frames: Frames) -> SimpleNam
         ]
         for name, places in part.points.items()
     }
-    return SimpleNamespace(**numbers, **part.options, **points)
+    series = {name: recording.values for name, recording in part.series.items()}
+    return SimpleNamespace(**numbers, **part.options, **points, **series)
 
 
 def _mirrored_point(at: Vector, mirrored: bool) -> Vector:

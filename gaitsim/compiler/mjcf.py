@@ -12,6 +12,7 @@ import mujoco
 from gaitsim.compiler.mechanics import Mechanics, numbers_of
 from gaitsim.compiler.places import DrawnForce, DrawnLine, Point, Touching, world_frames
 from gaitsim.compiler.ties import Tie
+from gaitsim.component import Refused
 from gaitsim.errors import Fault, Faults, InvalidComponent, InvalidSpec
 from gaitsim.model import WORLD, Model, Part
 from gaitsim.parts.load import function_of, raised
@@ -41,6 +42,7 @@ class Assembly:
     drawings: tuple[tuple[int, DrawnLine | DrawnForce], ...]
     touching: tuple[Touching, ...]
     lifts: tuple[str, ...]
+    begins: tuple[tuple[str, float, float], ...]
 
     @property
     def runge_kutta(self) -> bool:
@@ -74,12 +76,15 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
     drawings: list[tuple[int, DrawnLine | DrawnForce]] = []
     touching: list[Touching] = []
     lifts: list[str] = []
+    begins: list[tuple[str, float, float]] = []
 
     def build(part: Part, body: Any = None) -> None:
         mechanics = Mechanics(spec, part, frames, body)
         p = numbers_of(part, values, frames)
         try:
             function_of(part.type.cls, "build")(p, mechanics)
+        except Refused as error:
+            raise InvalidSpec(Fault(f"{error}.", part.mark, part.address)) from error
         except Exception as error:
             raise InvalidComponent(raised(part.type, "build", part.address, error)) from error
         reads.extend((index[part.address], tie) for tie in mechanics.reads)
@@ -88,6 +93,7 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
         drawings.extend((index[part.address], drawing) for drawing in mechanics.drawings)
         touching.extend(mechanics.touching)
         lifts.extend(mechanics.lifts)
+        begins.extend(mechanics.begins)
 
     order = body_order(model)
     for segment, joint in order:
@@ -105,7 +111,8 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
     compiled = _compiled(spec, {str(part.mark): part for part in model.parts})
     spec.option.integrator = compiled.opt.integrator = _integrator(model, compiled)
     known = tuple(of(compiled) for of in constants)
-    return Assembly(spec, compiled, tuple(reads), tuple(applies), known, tuple(drawings), tuple(touching), tuple(lifts))
+    seen, stood = (tuple(drawings), tuple(touching)), (tuple(lifts), tuple(begins))
+    return Assembly(spec, compiled, tuple(reads), tuple(applies), known, *seen, *stood)
 
 
 def _integrator(model: Model, compiled: Any) -> Any:

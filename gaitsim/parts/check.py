@@ -8,7 +8,20 @@ import copy
 import math
 from collections.abc import Iterator, Mapping, Sequence
 
-from gaitsim.component import Curve, Declaration, Frame, Input, Metric, Option, Output, Parameter, Points, Series, State
+from gaitsim.component import (
+    Curve,
+    Declaration,
+    Frame,
+    Input,
+    Metric,
+    Option,
+    Output,
+    Parameter,
+    Points,
+    Refused,
+    Series,
+    State,
+)
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark, did_you_mean, nearest
 from gaitsim.parts.build import build_faults, placed
 from gaitsim.parts.curve import curve_faults
@@ -254,7 +267,7 @@ class _Check:
 
     def names(self, function: ast.FunctionDef, plain: bool) -> None:
         own = (set(_bound(function)) - {function.name}) | self.globals
-        allowed = (set(dir(builtins)) if plain else _BUILTINS) | own
+        allowed = ({*dir(builtins), Refused.__name__} if plain else _BUILTINS) | own
         body = [node for statement in function.body for node in ast.walk(statement)]
         for node in body:
             if isinstance(node, ast.Name) and node.id not in allowed | _FORBIDDEN:

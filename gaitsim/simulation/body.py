@@ -64,6 +64,11 @@ class Body:
         self.data.warning.number[:] = 1
         self.data.userdata[:] = self.assembly.constants
         given: dict[str, list[int]] = {"qpos": [], "qvel": []}
+        for name, position, velocity in self.assembly.begins:
+            joint = self.model.joint(name)
+            for array, place, value in (("qpos", joint.qposadr[0], position), ("qvel", joint.dofadr[0], velocity)):
+                getattr(self.data, array)[place] = value
+                given[array].append(int(place))
         for address, number in self.program.model.initial.items():
             if address in self._coordinates:
                 array, place = self._coordinates[address]

@@ -1,4 +1,4 @@
-from gaitsim.component import Attachment, Component, Curve, Input, Option, Output, Parameter, State, StepLimit
+from gaitsim.component import Attachment, Component, Curve, Input, Option, Output, Parameter, Refused, State, StepLimit
 
 
 class Geyer2010(Component):
@@ -98,7 +98,7 @@ class Geyer2010(Component):
     @staticmethod
     def build(p, mj):
         if not p.lower < p.upper:
-            raise ValueError(f"lower {p.lower:g} rad is not below upper {p.upper:g} rad")
+            raise Refused(f"lower {p.lower:g} rad is not below upper {p.upper:g} rad; change one")
         within = (p.lower, p.upper) if p.upper - p.lower < 10 else None
         joint = mj.hinge(
             axis=(0, 1 if p.grows == "backwards" else -1, 0), damping=p.damping, limits=within, neutral=p.neutral

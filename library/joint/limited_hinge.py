@@ -1,4 +1,4 @@
-from gaitsim.component import Attachment, Component, Curve, Input, Output, Parameter
+from gaitsim.component import Attachment, Component, Curve, Input, Output, Parameter, Refused
 
 
 def stop_torque(depth, rate, stiffness, damping):
@@ -61,7 +61,7 @@ class LimitedHinge(Component):
     @staticmethod
     def build(p, mj):
         if not p.lower < p.upper:
-            raise ValueError(f"lower {p.lower:g} rad is not below upper {p.upper:g} rad")
+            raise Refused(f"lower {p.lower:g} rad is not below upper {p.upper:g} rad; change one")
         joint = mj.hinge(axis=(0, 1, 0), damping=p.damping, limits=(p.lower, p.upper))
         mj.read("angle", joint, "qpos")
         mj.read("velocity", joint, "qvel")

@@ -1,4 +1,4 @@
-from gaitsim.component import Component, Input, Output, Parameter, Points
+from gaitsim.component import Component, Input, Output, Parameter, Points, Refused
 
 
 class Wrapped(Component):
@@ -20,7 +20,7 @@ class Wrapped(Component):
     @staticmethod
     def build(p, mj):
         if len(p.center) != 1 or len(p.side) != 1:
-            raise ValueError("center and side are lists of one point each")
+            raise Refused("center and side are lists of one point each; remove the others")
         cylinder = mj.cylinder(p.center[0], p.radius, side=p.side[0])
         tendon = mj.tendon([*p.origin, cylinder, *p.insertion])
         mj.read("length", tendon, "ten_length")

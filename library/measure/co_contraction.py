@@ -1,0 +1,33 @@
+import math
+
+from gaitsim.component import Component, Input, Metric, Parameter, State
+
+
+class CoContraction(Component):
+    """How much two groups of muscles pull a joint both ways at once: the mean over time of the product of moments."""
+
+    unit = Parameter("N m", "What is called one unit.", default=1, bounds=(1e-9, 1e9), source="definition: SI")
+    settle = Parameter(
+        "s", "What is earlier does not count.", default=0, bounds=(0, 1e3), source="definition: the whole run"
+    )
+    opening = Input(
+        "N m", "Moments that make the angle grow; their sum counts where positive.", sums=True
+    )
+    closing = Input("N m", "Moments that make it fall; their sum counts where negative.", sums=True)
+
+    steps = State("1", "Steps since the start.")
+    counted = State("1", "Steps that count.")
+    total = State("1", "Sum of the products over them.")
+
+    value = Metric("1", "The mean product.")
+
+    @staticmethod
+    def update(p, u, x, y, dt):
+        if x.steps * dt >= p.settle:
+            x.counted = x.counted + 1
+            x.total = x.total + max(0.0, u.opening / p.unit) * max(0.0, -u.closing / p.unit)
+        x.steps = x.steps + 1
+
+    @staticmethod
+    def finish(p, x, m):
+        m.value = x.total / x.counted if x.counted > 0 else math.nan

@@ -1,0 +1,23 @@
+import math
+
+from gaitsim.component import Component, Input, Output, Parameter, Series
+
+
+class RecordedMoment(Component):
+    """A joint's moment as it was recorded over the cycle, and what muscles lack of it."""
+
+    curve = Series("N m/kg", "Recorded moment over body mass, over the cycle.", size=101)
+    mass = Parameter("kg", "Body mass.", bounds=(0.1, 1000))
+    phase = Input("1", "Phase of the cycle, from 0 to 1.")
+    muscle_moment = Input("N m", "Moment of the muscles.")
+
+    moment = Output("N m", "The recorded moment.")
+    lacking = Output("N m", "What the muscles lack of it.")
+
+    @staticmethod
+    def output(p, u, x, y):
+        place = 100 * (u.phase % 1)
+        left = min(99, math.floor(place))
+        i = int(left)
+        y.moment = p.mass * (p.curve[i] + (place - left) * (p.curve[i + 1] - p.curve[i]))
+        y.lacking = y.moment - u.muscle_moment
