@@ -9,7 +9,7 @@ import pytest
 from parts.calls import FOLDER, computed, metrics
 from simulation.models import written
 
-from gaitsim.parts.table import load_table
+from gaitsim.parts.find import Library
 from gaitsim.simulation.outcome import Trajectory
 from gaitsim.simulation.run import Mode, Simulator
 
@@ -44,8 +44,7 @@ def moved(mode: Mode, *settings: tuple[str, str]) -> Trajectory:
 @pytest.mark.parametrize("joint", ["hip", "knee"])
 def test_it_is_on_the_recorded_points_whatever_pulls(joint: str, mode: Mode) -> None:
     found = moved(mode, ("simulate.duration", "0.2 s") if mode == "normal" else ("simulate.duration", "1.3 s"))
-    table = load_table(FOLDER / "norms" / "fukuchi2018_walking_1p2.csv", "table")
-    curve = np.degrees(table.columns[f"{joint}_flexion"])
+    curve = np.degrees(Library((FOLDER,)).table("norms/fukuchi2018_walking_1p2").columns[f"{joint}_flexion"])
     # 11 steps are a hundredth of the cycle, which begins in its middle and again where it ends.
     at = (50 + np.arange(len(found.times[::11]))) % 100
     assert 180 - np.degrees(found[f"{joint}.angle"][::11]) == pytest.approx(curve[at], abs=1e-5)
