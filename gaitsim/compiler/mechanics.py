@@ -30,6 +30,7 @@ class Mechanics:
     spec: Any
     part: Part
     frames: Frames
+    dressed: bool = True
     own_body: Any = None
     reads: list[Tie] = field(default_factory=list)
     applies: list[Tie] = field(default_factory=list)
@@ -358,7 +359,8 @@ class Mechanics:
             raise ValueError(f"mj.{call} names {port}, which is declared as no output. {hint}")
 
     def _draw(self, **shape: Any) -> None:
-        self.own_body.add_geom(**self._massless, **shape)
+        if self.dressed:
+            self.own_body.add_geom(**self._massless, **shape)
 
     @property
     def _massless(self) -> dict[str, Any]:

@@ -55,8 +55,8 @@ class Assembly:
         return str(self.spec.to_xml())
 
 
-def assemble(model: Model, values: Sequence[float]) -> Assembly:
-    """Build and compile the mechanics for one set of numbers.
+def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Assembly:
+    """Build and compile the mechanics for one set of numbers; `dressed`: with what is only to be looked at.
 
     Errors: InvalidSpec if the bodies form no tree or MuJoCo refuses an element, InvalidComponent
     if a component's build raises.
@@ -79,7 +79,7 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
     begins: list[tuple[str, float, float]] = []
 
     def build(part: Part, body: Any = None) -> None:
-        mechanics = Mechanics(spec, part, frames, body)
+        mechanics = Mechanics(spec, part, frames, dressed, body)
         p = numbers_of(part, values, frames)
         try:
             function_of(part.type.cls, "build")(p, mechanics)
@@ -110,6 +110,7 @@ def assemble(model: Model, values: Sequence[float]) -> Assembly:
             build(part)
     compiled = _compiled(spec, {str(part.mark): part for part in model.parts})
     spec.option.integrator = compiled.opt.integrator = _integrator(model, compiled)
+    compiled.opt.disableflags |= _unused_stages(compiled)
     known = tuple(of(compiled) for of in constants)
     seen, stood = (tuple(drawings), tuple(touching)), (tuple(lifts), tuple(begins))
     return Assembly(spec, compiled, tuple(reads), tuple(applies), known, *seen, *stood)
@@ -134,6 +135,15 @@ def _integrator(model: Model, compiled: Any) -> Any:
     # Of a body alone MuJoCo keeps a diagonal mass matrix; implicitfast then drops how damping couples its coordinates.
     alone = compiled.body_simple[1:].any()
     return mujoco.mjtIntegrator.mjINT_IMPLICIT if alone else _INTEGRATORS["implicitfast"]
+
+
+def _unused_stages(compiled: Any) -> int:
+    """The stage of a step that finds contacts, limits and other constraints, if the model has none of them."""
+    rubs = compiled.dof_frictionloss.any() or compiled.tendon_frictionloss.any()
+    stops = compiled.jnt_limited.any() or compiled.tendon_limited.any()
+    touches = (compiled.geom_contype[:, None] & compiled.geom_conaffinity).any() or compiled.npair
+    used = compiled.neq or rubs or stops or touches
+    return 0 if used else int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
 
 
 def body_order(model: Model) -> list[tuple[Part, Part]]:

@@ -56,7 +56,7 @@ class Body:
         """
         key = tuple(values[i] for i in self._mechanical)
         if self._assembly is None or key != self._built_for:
-            self._assembly = assemble(self.program.model, values)
+            self._assembly = assemble(self.program.model, values, dressed=False)
             self._built_for = key
             self.data = mujoco.MjData(self.model)
         mujoco.mj_resetData(self.model, self.data)

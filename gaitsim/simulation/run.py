@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from gaitsim.compiler.mjcf import assemble
 from gaitsim.compiler.program import Floats, Program, measures
 from gaitsim.errors import InvalidComponent, InvalidSpec, SimulationFailed
 from gaitsim.model import TERMS, Model, Objective, Part, metric_names, recorded_signals
@@ -63,8 +64,8 @@ class Simulator:
 
     @property
     def xml(self) -> str:
-        """The mechanics as MJCF."""
-        return str(self._loop.body.assembly.xml)
+        """The mechanics as MJCF, with what is to be looked at."""
+        return assemble(self.model, self.model.values()).xml
 
     def run(self, candidate: Sequence[float] | None = None, recorded: bool = False) -> Outcome:
         """Simulate one candidate: the values of `model.free`, or None for their starts."""

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import ctypes
+from pathlib import Path
+
 import mujoco
 import numpy as np
 import pytest
@@ -114,3 +117,31 @@ def test_bodies_form_a_tree(old: str, new: str, place: str, message: str) -> Non
     with pytest.raises(InvalidSpec) as caught:
         Simulator(written(BODIES.replace(old, new)))
     assert f"{place}: {message}" in str(caught.value)
+
+
+def test_what_is_only_to_be_looked_at_is_exported_and_not_simulated() -> None:
+    simulator = Simulator(written(BODIES))
+    assert simulator._loop.body.model.ngeom == 0
+    assert mujoco.MjModel.from_xml_string(simulator.xml).ngeom == 2
+
+
+@pytest.mark.parametrize(
+    ("more", "used"),
+    [
+        ("", False),
+        ("  tip: {use: contact/mujoco, frame: lower.distal}\n", True),
+        ("  line: {use: constraint/vertical, line: world, point: lower.distal, moved_mass: 1 kg}\n", True),
+        ("  tip: {use: contact/spring_damper, frame: lower.distal}\n", False),
+    ],
+    ids=["bodies", "contact", "equality", "explicit contact"],
+)
+def test_the_stage_of_constraints_is_passed_only_where_there_is_none(more: str, used: bool) -> None:
+    made = Simulator(written(BODIES.replace("simulate:", f"{more}simulate:")))._loop.body.model
+    off = made.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
+    assert bool(off) != used
+
+
+def test_nothing_reads_the_clock_in_a_step() -> None:
+    Simulator(written(BODIES))
+    library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob("libmujoco.*"))))
+    assert ctypes.c_void_p.in_dll(library, "mjcb_time").value is None
