@@ -33,10 +33,24 @@ class Layout:
         """The place of one field in the whole table."""
         return int(self.offsets[part]) + self.fields[part][name]
 
+    def slices(self, part: int, sizes: dict[str, int]) -> dict[str, int | slice]:
+        """The places of one part's fields by name; of an array, whose size is given, all of them."""
+        places: dict[str, int | slice] = {}
+        for name in self.fields[part]:
+            begin = self.place(part, name)
+            places[name] = slice(begin, begin + sizes[name]) if name in sizes else begin
+        return places
+
     def span(self, part: int) -> range:
         """The places of all fields of one part."""
         begin = int(self.offsets[part])
         return range(begin, begin + self.sizes[part])
+
+
+def _sizes(part: Part) -> tuple[dict[str, int], ...]:
+    """The lengths of a part's arrays in the four tables."""
+    states = {name: state.size for name, state in part.type.states.items() if state.size is not None}
+    return {name: one.size for name, one in part.type.series.items()}, {}, states, {}
 
 
 def _layout(sizes: Sequence[dict[str, int]]) -> Layout:
@@ -108,6 +122,15 @@ class Program:
     @cached_property
     def outputs(self) -> Layout:
         return _layout([dict.fromkeys(p.type.outputs, 1) for p in self.model.parts])
+
+    @cached_property
+    def field_places(self) -> tuple[tuple[dict[str, int | slice], ...], ...]:
+        """For each part where its fields lie in the four tables p, u, x and y; an array has a slice."""
+        layouts = (self.parameters, self.inputs, self.states, self.outputs)
+        return tuple(
+            tuple(layout.slices(i, sizes) for layout, sizes in zip(layouts, _sizes(part), strict=True))
+            for i, part in enumerate(self.model.parts)
+        )
 
     @cached_property
     def calls(self) -> tuple[Call, ...]:

@@ -32,15 +32,5 @@ class View:
 
 def views(program: Program, part: int, p: Floats, u: Floats, x: Floats, y: Floats) -> tuple[View, View, View, View]:
     """The four views of a part."""
-    kind = program.model.parts[part].type
-    states = {name: state.size for name, state in kind.states.items() if state.size is not None}
-    series = {name: one.size for name, one in kind.series.items()}
-    sized: tuple[dict[str, int], ...] = (series, {}, states, {})
-    layouts = (program.parameters, program.inputs, program.states, program.outputs)
-    made = []
-    for table, layout, sizes in zip((p, u, x, y), layouts, sized, strict=True):
-        places: dict[str, int | slice] = {name: layout.place(part, name) for name in layout.fields[part]}
-        places |= {n: slice(layout.place(part, n), layout.place(part, n) + size) for n, size in sizes.items()}
-        made.append(View(table, places))
-    a, b, c, d = made
-    return a, b, c, d
+    places = program.field_places[part]
+    return View(p, places[0]), View(u, places[1]), View(x, places[2]), View(y, places[3])

@@ -9,7 +9,8 @@ from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from concurrent.futures import Future
 from contextlib import suppress
-from typing import TypeVar
+from queue import SimpleQueue
+from typing import Any, TypeVar
 
 Result = TypeVar("Result")
 
@@ -56,7 +57,28 @@ def interruptible(call: Callable[[], Result]) -> Result:
     main = threading.current_thread() is threading.main_thread()
     if not main or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         return call()
-    return in_thread(call)
+    # A thread that is waiting is kept for the next call; one that was left to itself does not come back.
+    calls = _idle.pop() if _idle else _hired()
+    answer: Future[Result] = Future()
+    calls.put((call, answer))
+    found = answer.result()
+    _idle.append(calls)
+    return found
+
+
+_idle: list[SimpleQueue[tuple[Callable[[], Any], Future[Any]]]] = []
+
+
+def _hired() -> SimpleQueue[tuple[Callable[[], Any], Future[Any]]]:
+    """The calls that a new thread makes, one after the other."""
+    calls: SimpleQueue[tuple[Callable[[], Any], Future[Any]]] = SimpleQueue()
+
+    def work() -> None:
+        while True:
+            _answer(*calls.get())
+
+    threading.Thread(target=work, daemon=True).start()
+    return calls
 
 
 def _answer(call: Callable[[], Result], answer: Future[Result]) -> None:

@@ -131,7 +131,7 @@ def test_what_is_only_to_be_looked_at_is_exported_and_not_simulated() -> None:
         ("", False),
         ("  tip: {use: contact/mujoco, frame: lower.distal}\n", True),
         ("  line: {use: constraint/vertical, line: world, point: lower.distal, moved_mass: 1 kg}\n", True),
-        ("  tip: {use: contact/spring_damper, frame: lower.distal}\n", False),
+        ("  tip: {use: contact/geyer2010, frame: lower.distal}\n", False),
     ],
     ids=["bodies", "contact", "equality", "explicit contact"],
 )
