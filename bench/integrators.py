@@ -1,7 +1,8 @@
 """Orders of the integrators: `python bench/integrators.py` prints docs/numerics.md's table.
 
-The error of a signal at one instant, against rk4 at a sixteenth of the smallest step; its order is the binary logarithm of how the error falls as the step is halved. And how much of its energy a model
-without friction gains or loses in 100 s at 1 ms.
+The error of a signal at one instant, against rk4 at a sixteenth of the smallest step; its order is the binary
+logarithm of how the error falls as the step is halved. And how much of its energy a model without friction gains
+or loses in 100 s at 1 ms.
 """
 
 from __future__ import annotations
