@@ -7,7 +7,7 @@ import json
 import math
 import re
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, FiniteFloat, ValidationError
@@ -69,7 +69,7 @@ class Evaluation:
         """One line of JSON, the same for the same numbers; its digest covers all that stands before it."""
         place = self.candidate
         head: dict[str, Any] = {"run": 0, "generation": place.generation, "index": place.index, "x": list(place.x)}
-        found = asdict(self.verdict)
+        found = dict(vars(self.verdict))
         if not self.verdict.episodes:
             del found["episodes"]
         text = json.dumps(head | found, allow_nan=False)[:-1]
