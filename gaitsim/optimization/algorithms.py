@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
+import sys
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
 from functools import partial
 from typing import Any, Protocol
 
@@ -46,11 +48,27 @@ _REASONS = {
 }
 
 
+@contextmanager
+def _absent(*modules: str) -> Iterator[None]:
+    """Within, these cannot be imported. pycma asks for them in passing and does without; they take a second."""
+    before = {name: sys.modules[name] for name in modules if name in sys.modules}
+    sys.modules.update(dict.fromkeys(modules))  # type: ignore[arg-type]
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            yield
+    finally:
+        for name in modules:
+            del sys.modules[name]
+        sys.modules.update(before)
+
+
 class CmaEs:
     """CMA-ES by pycma, drawing from a stream of its own."""
 
     def __init__(self, problem: Problem, seed: int, population: int | None) -> None:
-        import cma
+        with _absent("matplotlib", "scipy.stats"):
+            import cma
 
         stream = np.random.default_rng([seed, 0])
         low, high = problem.bounds

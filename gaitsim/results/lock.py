@@ -8,6 +8,7 @@ import math
 import os
 import socket
 import time
+from collections.abc import Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any
@@ -39,7 +40,8 @@ class Lock:
                 self._remove_if_stale()
                 continue
             with os.fdopen(descriptor, "w", encoding="utf-8") as file:
-                json.dump({"host": socket.gethostname(), "process": os.getpid()}, file)
+                mine = {"host": socket.gethostname(), "process": os.getpid(), "began": _began(os.getpid())}
+                json.dump(mine, file)
             return self
         raise Locked(f"{self._path}: {_BEGUN}; try again.")
 
@@ -51,10 +53,9 @@ class Lock:
     def _remove_if_stale(self) -> None:
         holder = _holder(self._path)
         host, process = holder.get("host"), holder.get("process")
-        if not holder and self._age() < _WRITING:
+        if not holder and _age(self._path) < _WRITING:
             raise Locked(f"{self._path}: {_BEGUN}; try again.")
-        here = host in (None, socket.gethostname())
-        if not here or (isinstance(process, int) and process != os.getpid() and _alive(process)):
+        if process != os.getpid() and _may_run(holder):
             rule = f"process {process} on {host} is writing this result"
             raise Locked(f"{self._path}: {rule}; wait for it, or remove this file if that process is gone.")
         # Taken aside by one process only; if it is not what was looked at, someone else was faster.
@@ -65,9 +66,6 @@ class Lock:
                 aside.rename(self._path)
                 raise Locked(f"{self._path}: {_BEGUN}; try again.")
             aside.unlink()
-
-    def _age(self) -> float:
-        return _age(self._path)
 
 
 def state_of(folder: Path, status: str) -> str:
@@ -81,9 +79,7 @@ def state_of(folder: Path, status: str) -> str:
     holder = _holder(path)
     if not holder:
         return "running" if _age(path) < _WRITING else "interrupted"
-    host, process = holder.get("host"), holder.get("process")
-    here = host in (None, socket.gethostname())
-    return "interrupted" if here and not (isinstance(process, int) and _alive(process)) else "running"
+    return "running" if _may_run(holder) else "interrupted"
 
 
 def _age(path: Path) -> float:
@@ -102,11 +98,26 @@ def _holder(path: Path) -> dict[str, Any]:
     return data if isinstance(data, dict) else {}
 
 
-def _alive(process: int) -> bool:
+def _may_run(holder: Mapping[str, Any]) -> bool:
+    """Whether the process that holds a lock still runs; one on another machine may."""
+    if holder.get("host") not in (None, socket.gethostname()):
+        return True
+    process = holder.get("process")
+    if not isinstance(process, int):
+        return False
     try:
         os.kill(process, 0)
-    except ProcessLookupError:
+    except (ProcessLookupError, OverflowError):
         return False
     except PermissionError:
-        return True
-    return True
+        pass
+    # The number of a process that is gone is given to another one, soon after a restart of the machine.
+    return holder.get("began") in (None, _began(process))
+
+
+def _began(process: int) -> int | None:
+    """When a process began, in ticks since this machine did; None where the system does not say it."""
+    try:
+        return int(Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[19])
+    except (OSError, ValueError, IndexError):
+        return None

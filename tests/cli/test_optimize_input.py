@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import os
 import shutil
+import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -315,10 +316,9 @@ def test_a_half_made_result_is_none(begun: Path, command: Any) -> None:
     assert command("optimize", "spec.yaml", *SMALL, "--resume").err.startswith(f"resuming {begun}\n")
 
 
-def held(folder: Path, process: int) -> None:
-    import socket
-
-    (folder / "lock").write_text(json.dumps({"host": socket.gethostname(), "process": process}))
+def held(folder: Path, process: int, host: str = "", began: int | None = None) -> None:
+    found = {"host": host or socket.gethostname(), "process": process, "began": began}
+    (folder / "lock").write_text(json.dumps(found))
 
 
 def test_a_locked_result(begun: Path, command: Any) -> None:
@@ -341,6 +341,34 @@ def test_a_lock_of_a_dead_process(begun: Path, command: Any, garbage: bool) -> N
         os.utime(begun / "lock", (1, 1))
     assert command("optimize", str(begun), "--resume", "--generations", "3", "--workers", "0").code == 0
     assert not list(begun.glob("lock*"))
+
+
+def test_a_lock_whose_number_another_process_has_now(begun: Path, command: Any) -> None:
+    held(begun, os.getppid(), began=1)
+    assert command("optimize", str(begun), "--resume", "--generations", "3", "--workers", "0").code == 0
+    assert not list(begun.glob("lock*"))
+
+
+def test_a_state_is_that_of_who_holds_the_lock(begun: Path, command: Any) -> None:
+    def state() -> str:
+        (row,) = command("results", "list", "--json").data["results"]
+        assert command("results", "show", str(begun), "--json").data["status"] == row["status"]
+        return str(row["status"])
+
+    held(begun, os.getppid())
+    assert state() == "complete"
+    rewritten(begun / "manifest.json", ('"status": "complete"', '"status": "running"'))
+    assert state() == "running"
+    held(begun, os.getppid(), began=1)
+    assert state() == "interrupted"
+    held(begun, os.getppid(), host="elsewhere")
+    assert state() == "running"  # from here no one can tell
+    (begun / "lock").write_text("")
+    assert state() == "running"  # it is being written
+    os.utime(begun / "lock", (1, 1))
+    assert state() == "interrupted"
+    (begun / "lock").unlink()
+    assert state() == "interrupted"
 
 
 def test_a_lock_that_is_just_being_written(begun: Path, command: Any) -> None:
