@@ -11,7 +11,7 @@ from gaitsim.analysis.cycles import Floats
 from gaitsim.analysis.drawing import Drawing
 from gaitsim.analysis.footsteps import double_support, lacks_center, margin, steps, symmetry
 from gaitsim.analysis.gait_muscles import activation_figures, metabolic_figures, sided_muscles
-from gaitsim.analysis.gait_norms import Followed, Matched, followed, later, matched_moments, matched_signals
+from gaitsim.analysis.gait_norms import Followed, Matched, followed, matched_moments, matched_signals
 from gaitsim.analysis.gait_panels import LINE, SPREAD, draw_cycle, draw_people, name_lines, said
 from gaitsim.analysis.joint_moments import hidden_paths, joint_power, joint_work
 from gaitsim.analysis.keypoints import FORWARDS, PEAKS_BY, POWERS, VERTICAL, draw_peaks, name_peaks
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Legs = Sequence[Leg]
+_IN_TABLE = "How they compare in numbers is in the table Compared with people."
 
 
 def gait_figures(replay: Replay) -> list[Drawing]:
@@ -72,22 +73,6 @@ def _draw_matched(panel: Axes, legs: Legs, matched: Matched, unit: str) -> None:
             draw_cycle(panel, leg, matched.cycles[leg.side], factor)
 
 
-def compared_words(matched: Matched) -> str:
-    """The numbers of each leg beside people's, as a caption has them."""
-    unit = matched.norm.unit
-    factor, words = parse_unit(unit).factor, []
-    for side in matched.cycles:
-        found = matched.comparison(side)
-        fit = f", fit {found.fit:.0f} %" if matched.norm.deviation is not None else ""
-        peak = later(found.highest_at, found.norm_highest_at)
-        reach = (found.reach - found.norm_reach) / factor
-        words.append(
-            f"{SIDES[side]} r {found.correlation:.2f}, RMSE {found.error / factor:.3g} {unit}, range "
-            f"{reach:+.3g} {unit}, highest {peak:+.0f} % of the cycle{fit}"
-        )
-    return f"{matched.name.capitalize()}: {'; '.join(words)}."
-
-
 def _people_words(matched: Sequence[Matched]) -> str:
     bands = any(one.norm.deviation is not None for one in matched)
     sources = ", ".join(dict.fromkeys(one.norm.recorded_by for one in matched if one.norm.recorded_by))
@@ -109,23 +94,17 @@ def _angles(replay: Replay, legs: Legs) -> list[Drawing]:
     title = "Joint angles over the gait cycle" if turning else "Signals over the gait cycle"
     caption = (
         f"{', '.join(one.name for one in matched)}: {said(legs)}. {SPREAD} Dotted: take-off. "
-        f"{_people_words(matched)} {' '.join(compared_words(one) for one in matched)} Range and place of the highest "
-        "value are the model's minus people's; zeros of hip and ankle differ by 10 to 20 deg between laboratories."
+        f"{_people_words(matched)} Zeros of hip and ankle differ by 10 to 20 deg between laboratories. {_IN_TABLE}"
     )
     return [Drawing("gait_angles", title, caption, figure)]
 
 
 def _forces(legs: Legs) -> Drawing:
     figure, (vertical, forward) = panels(2, 1, height=1.9, share=True)
-    words = []
     for leg in legs:
         load, shear = leg.over_cycle(leg.load), leg.over_cycle(leg.shear)
         draw_cycle(vertical, leg, load)
         draw_cycle(forward, leg, shear)
-        highest = float(np.mean(leg.highest(leg.load)))
-        words.append(
-            f"{leg.name} at most {highest:.3g}, braking {np.min(shear.mean):.2g}, propulsion {np.max(shear.mean):.2g}"
-        )
     draw_peaks(vertical, VERTICAL)
     draw_peaks(forward, FORWARDS)
     name_peaks(vertical)
@@ -137,8 +116,7 @@ def _forces(legs: Legs) -> Drawing:
     caption = (
         "Force of the ground on each foot in body weights, along the ground's normal and forwards along the ground: "
         f"{said(legs)}. {SPREAD} Dotted: take-off. Green: peaks of healthy people at natural speed, level "
-        f"({PEAKS_BY}). {'; '.join(words)} (highest: mean over strides of each one's "
-        "peak; braking and propulsion of the mean stride)."
+        f"({PEAKS_BY}). The table Gait has the peaks."
     )
     return Drawing("gait_forces", "Ground reaction forces over the gait cycle", caption, figure)
 
@@ -156,14 +134,15 @@ def _moments(replay: Replay, legs: Legs) -> list[Drawing]:
         moment.set_title(one.name.removesuffix(" moment"), loc="left", fontsize=FONT)
         moment.set_ylabel(labelled("moment", "N m/kg"))
         works = _draw_power(power, replay, legs, joints[one.name.split()[0]])
-        words.append(f"{compared_words(one)} Work a stride: {works}.")
+        words.append(f"{one.name.split()[0]} {works}")
     name_lines(figure, axes[0])
     for panel in axes[-2:]:
         panel.set_xlabel(labelled("gait cycle", "%"))
     caption = (
         f"Net joint moments (of muscles, stops and damping) and their powers over body mass: {said(legs)}. Extension "
         f"and plantarflexion are positive; power is positive where a joint gives work. {SPREAD} Dotted: take-off. "
-        f"{_people_words(matched)} Dots: peaks of their powers ({PEAKS_BY}). {' '.join(words)}"
+        f"{_people_words(matched)} Dots: peaks of their powers ({PEAKS_BY}). Work a stride: "
+        f"{'; '.join(words)}. {_IN_TABLE}"
     )
     return [Drawing("gait_moments", "Joint moments and powers over the gait cycle", caption, figure)]
 
@@ -267,14 +246,17 @@ def _symmetry(replay: Replay, legs: Legs) -> Drawing:
     figure, (panel,) = panels(height=0.4 + 0.24 * len(names))
     values = np.nan_to_num([found[name] for name in names])
     panel.set_axisbelow(True)
-    panel.barh(names, values, color=[LINE["r" if value > 0 else "l"]["color"] for value in values], height=0.6)
+    colours = [LINE["r" if value > 0 else "l"]["color"] for value in values]
+    panel.barh(names, values, color=colours, height=0.6)
+    # A dot shows where a bar is too short to be seen.
+    panel.scatter(values, names, color=colours, s=14, zorder=3)
     panel.axvline(0, color=GREY, linewidth=0.8)
-    widest = max(5.0, 1.1 * float(np.max(np.abs(values))))
+    widest = max(1.0, 1.1 * float(np.max(np.abs(values))))
     panel.set_xlim(-widest, widest)
     panel.set_xlabel(labelled("right more than left", "%"))
     largest = max(found, key=lambda name: abs(np.nan_to_num(found[name])))
     caption = (
         "Symmetry: right minus left in % of their mean, 0 if both legs do the same on average, 200 if one does "
-        f"nothing. The largest is {found[largest]:+.3g} % of {largest}."
+        f"nothing; a dot at 0 is a side like the other. The largest is {found[largest]:+.3g} % of {largest}."
     )
     return Drawing("gait_symmetry", "Symmetry of both legs", caption, figure)

@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gaitsim.errors import Usage
 from gaitsim.model import Model
 from gaitsim.results.manifest import changed_versions
 from gaitsim.results.source import Source
@@ -88,13 +87,7 @@ class Replay:
 
         Errors: Usage unless that is a whole number of steps.
         """
-        steps = round(interval / self.outcome.step)
-        if steps < 1 or abs(steps * self.outcome.step - interval) > 1e-9:
-            rule = f"{self.label} has steps of {self.outcome.step:g} s; write a multiple of that"
-            raise Usage(f"one instant every {interval:g} s: {rule}.")
-        whole = self.trajectory
-        part = replace(whole, times=whole.times[::steps], values=whole.values[::steps])
-        return replace(self, outcome=replace(self.outcome, trajectory=part))
+        return replace(self, outcome=self.outcome.every(interval))
 
 
 def replayed(

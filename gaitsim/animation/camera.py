@@ -47,8 +47,14 @@ class Views:
         return camera
 
 
-def follow(posture: Posture, rows: NDArray[np.int64], spacing: float, aspect: float) -> Views:
-    """Views of the given instants, `spacing` seconds apart, for a picture `aspect` times as wide as high."""
+def follow(
+    posture: Posture, rows: NDArray[np.int64], spacing: float, aspect: float, words: tuple[float, float] = (0, 0)
+) -> Views:
+    """Views of the given instants, `spacing` seconds apart, for a picture `aspect` times as wide as high.
+
+    words: the parts of its height that are written on, above and below; the body stays between them.
+    """
+    above, below = max(_ABOVE, words[0]), max(_BELOW, words[1])
     centers, lows, highs = np.zeros((len(rows), 3)), np.zeros((len(rows), 3)), np.zeros((len(rows), 3))
     for k, row in enumerate(rows):
         posture.take(int(row))
@@ -64,8 +70,8 @@ def follow(posture: Posture, rows: NDArray[np.int64], spacing: float, aspect: fl
         if still_half[axis] < _STILL * half[axis]:
             points[:, axis], half[axis] = still[:, axis], still_half[axis]
     points[:, 1] = 0
-    high = max(half[2] / (1 - _ABOVE - _BELOW), half[0] / aspect / (1 - 2 * _BESIDE), 0.05)
-    points[:, 2] += (_ABOVE - _BELOW) * high
+    high = max(half[2] / (1 - above - below), half[0] / aspect / (1 - 2 * _BESIDE), 0.05)
+    points[:, 2] += (above - below) * high
     return Views(points, high / math.tan(math.radians(FIELD / 2)), newtons)
 
 

@@ -32,7 +32,7 @@ class Caption:
     @property
     def font(self) -> int:
         """Size of letters in pixels."""
-        return max(10, round(min(self.width / 30, self.height / 36)))
+        return font_of(self.width, self.height)
 
     def put_on(self, picture: Pixels, time: float) -> Pixels:
         """A picture with its words, at a time in seconds."""
@@ -74,6 +74,17 @@ class Caption:
             Words("0", left, row, font, "lm"),
             Words("1  muscle activation", end + 0.3 * font, row, font, "lm"),
         ]
+
+
+def font_of(width: int, height: int) -> int:
+    """Size of letters in pixels on a picture of this size."""
+    return max(10, round(min(width / 30, height / 36)))
+
+
+def room_for(width: int, height: int, lines_below: int) -> tuple[float, float]:
+    """The parts of a picture's height that have words: three lines above, and so many below."""
+    font = font_of(width, height)
+    return 5.2 * font / height, (0.7 + 1.6 * lines_below) * font / height if lines_below else 0.0
 
 
 def speed_words(speed: float) -> str:

@@ -38,8 +38,7 @@ class _Page:
     full: Pixels
     left: float
     right: float
-    top: int
-    bottom: int
+    spans: tuple[tuple[int, int], ...]
 
 
 @dataclass
@@ -69,7 +68,9 @@ class Panel:
         pixels = page.faint.copy()
         pixels[:, round(page.left) : column] = page.full[:, round(page.left) : column]
         thick = max(1, round(1.5 * self.scale))
-        pixels[page.top : page.bottom, column : column + thick] = _CURSOR
+        # Between two scopes there is a title, of which the line would hide the first letter.
+        for top, bottom in page.spans:
+            pixels[top:bottom, column : column + thick] = _CURSOR
         return write(pixels, self._values(row, page))
 
     def _values(self, row: int, page: _Page) -> list[Words]:
@@ -116,8 +117,8 @@ class Panel:
             images.append(np.asarray(canvas.buffer_rgba())[..., :3].copy())
         boxes = [each.get_window_extent() for each in axes]
         self._rows = [self.height - (box.y0 + box.y1) / 2 for box in boxes]
-        top, bottom = round(self.height - boxes[0].y1), round(self.height - boxes[-1].y0)
-        return _Page(begin, end, images[0], images[1], boxes[0].x0, boxes[0].x1, top, bottom)
+        spans = tuple((round(self.height - box.y1), round(self.height - box.y0)) for box in boxes)
+        return _Page(begin, end, images[0], images[1], boxes[0].x0, boxes[0].x1, spans)
 
     def _axes(self, figure: Figure, begin: float, end: float) -> list[Axes]:
         """One scope below the other, named above its left end."""

@@ -14,7 +14,7 @@ from gaitsim.analysis.replay import Replay
 from gaitsim.animation import colours, scopes
 from gaitsim.animation.camera import Views, follow
 from gaitsim.animation.canvas import Canvas
-from gaitsim.animation.caption import Caption
+from gaitsim.animation.caption import Caption, room_for
 from gaitsim.animation.encoder import Encoder
 from gaitsim.animation.panel import Panel
 from gaitsim.animation.posture import Posture, rows_at
@@ -86,7 +86,8 @@ class _Film:
         signals = scopes.chosen(replay.model, options.scopes) or scopes.usual(replay.model, stage)[:room]
         _check_room(len(signals), room)
         self.panel = Panel(replay.trajectory, signals, *rest, float(times[0]), float(times[-1]))
-        self.views: Views = follow(self.posture, self.rows, options.speed / self.rate, width / height)
+        words = room_for(width, height, bool(stage.forces) + bool(stage.muscles))
+        self.views: Views = follow(self.posture, self.rows, options.speed / self.rate, width / height, words)
         newtons = self.views.newtons if stage.forces else None
         metre = self.views.pixels_of_a_metre(height)
         self.caption = Caption(replay.name, options.speed, width, height, bool(stage.muscles), newtons, metre)

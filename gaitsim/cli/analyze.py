@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Trust
+from gaitsim.cli.options import Json, Libraries, Set, Trust, seconds_of
 from gaitsim.errors import GaitsimError, SimulationFailed, Usage
 
 if TYPE_CHECKING:
@@ -106,12 +106,13 @@ def analyze(
 
     if against is not None and not plot:
         raise Usage(f"--against {against}: name what is drawn against it, such as --plot '*.force'.")
-    window = _seconds("--from-time", from_time), _seconds("--to-time", to_time)
-    spacing = _seconds("--every", every)
-    products = Products(Path())
+    window = seconds_of("--from-time", from_time), seconds_of("--to-time", to_time)
+    spacing = seconds_of("--every", every)
+    products = Products(Path(), quiet=json)
     sources = _opened(paths, candidate, settings, library, start, trust, products)
     products.folder = _made(folder or _default_folder(sources))
-    replays = _replayed(sources, window, products)
+    with console.waiting("running again", quiet=json):
+        replays = _replayed(sources, window, products)
     _said_lacking(replays, [*(plot or []), *(return_map or []), *([against] if against else [])])
     asked = _asked(replays, plot or [], against, return_map or [])
     products.draw([*asked, *([] if only else default_figures(replays))], [f.value for f in formats or [Format.png]])
@@ -227,23 +228,6 @@ def _said_lacking(replays: list[Replay], words: list[str]) -> None:
             console.say(f"{text}: {', '.join(without)} has no such signal")
 
 
-_TIME = "write a time, such as '2 s' or '300 ms'."
-
-
-def _seconds(option: str, text: str | None) -> float | None:
-    """A time such as '2 s', '300 ms' or 2. Errors: Usage."""
-    from gaitsim.spec.quantity import in_plain_letters
-    from gaitsim.units import UnknownUnit, parse_quantity, parse_unit
-
-    if text is None:
-        return None
-    try:
-        quantity = parse_quantity(text)
-    except UnknownUnit:
-        quantity = None
-    if quantity is None or (quantity.unit.text != "1" and quantity.unit.dimension != parse_unit("s").dimension):
-        raise Usage(f"{option} {text}: {in_plain_letters(text) or _TIME}")
-    return quantity.value
 
 
 def _default_folder(sources: list[tuple[Path, str, Source]]) -> Path:

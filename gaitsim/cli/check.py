@@ -65,7 +65,8 @@ def check(
     picture = folder / f"{source.name}.moment_arms.png" if plot and arms else None
     if picture is not None:
         draw(arms, picture, source.name)
-    found = convergence_of(models) if convergence else []
+    with console.waiting("simulating", quiet=json):
+        found = convergence_of(models) if convergence else []
     counts = {
         "parts": len(model.parts),
         "connections": len(model.connections),

@@ -5,10 +5,15 @@ from __future__ import annotations
 import json
 import math
 import sys
-from collections.abc import Callable, Iterable, Sequence
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from threading import Event, Thread
 from typing import Any
 
 from gaitsim.errors import GaitsimError
+
+PLAIN_EVERY = 5.0  # seconds between lines of progress where stderr is no terminal
 
 
 def say(text: str) -> None:
@@ -21,15 +26,46 @@ def rewrite(text: str) -> None:
     print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
 
 
-def progress(what: str) -> Callable[[int, int], None]:
-    """What hears of steps done, and of how many, and shows them in one line; only on a terminal."""
-    terminal = sys.stderr.isatty()
+def progress(what: str, quiet: bool = False) -> Callable[[int, int], None]:
+    """What hears of steps done, and of how many, and shows them in one line.
+
+    On a terminal the line is rewritten; elsewhere there is a new one every few seconds. quiet: none there.
+    """
+    terminal, said = sys.stderr.isatty(), time.monotonic()
 
     def hear(done: int, count: int) -> None:
+        nonlocal said
         if terminal:
             rewrite("" if done == count else f"{what}: {done} of {count}")
+        elif not quiet and done < count and time.monotonic() - said >= PLAIN_EVERY:
+            said = time.monotonic()
+            say(f"{what}: {done} of {count}")
 
     return hear
+
+
+@contextmanager
+def waiting(what: str, quiet: bool = False) -> Iterator[None]:
+    """Say every few seconds how long something has taken that tells nothing of itself, such as one long run."""
+    over, began = Event(), time.monotonic()
+
+    def talk() -> None:
+        while not over.wait(PLAIN_EVERY):
+            text = f"{what}: {time.monotonic() - began:.0f} s so far"
+            if sys.stderr.isatty():
+                rewrite(text)
+            elif not quiet:
+                say(text)
+
+    talker = Thread(target=talk, daemon=True)
+    talker.start()
+    try:
+        yield
+    finally:
+        over.set()
+        talker.join()
+        if sys.stderr.isatty() and time.monotonic() - began >= PLAIN_EVERY:
+            rewrite("")
 
 
 def give(text: str) -> None:

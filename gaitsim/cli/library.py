@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -83,7 +83,7 @@ def show_component(
     for section, rows in found.items():
         if isinstance(rows, dict) and rows:
             console.give("")
-            columns = list(dict.fromkeys(key for row in rows.values() for key in row))
+            columns = list(dict.fromkeys(key for row in rows.values() for key in row if _said(row[key])))
             table = [(name, *(_cell(row.get(key)) for key in columns)) for name, row in rows.items()]
             console.give_table([section, *columns], table)
 
@@ -235,9 +235,19 @@ def _values(component: ComponentFile, settings: list[str]) -> dict[str, float]:
     return values
 
 
+def _said(value: Any) -> bool:
+    """Whether a field says something; those that say nothing in any row have no column."""
+    return value is not None and value is not False and value not in ("", (), [], {})
+
+
 def _cell(value: Any) -> str:
-    if value is None:
+    if not _said(value):
         return ""
+    if isinstance(value, Mapping):
+        return ", ".join(f"{name} = {_cell(item)}" for name, item in value.items())
+    if value is True:
+        return "yes"
     if isinstance(value, list | tuple):
-        return ", ".join(_cell(item) for item in value)
+        pairs = all(isinstance(item, list | tuple) and len(item) == 2 for item in value)
+        return ", ".join(" = ".join(map(_cell, item)) if pairs else _cell(item) for item in value)
     return f"{value:g}" if isinstance(value, float | int) and not isinstance(value, bool) else str(value)

@@ -72,7 +72,7 @@ def limit(
     for notice in dict.fromkeys([*source.notices, *model.notices]):
         console.say(notice)
     hunt = Hunt(source, rows[0].document, rows[0].settings, limits, until_of(until, model), mode.value)
-    hunt.run(console.progress("runs"))
+    hunt.run(console.progress("runs", quiet=json))
     folder = None if no_save else _saved(hunt)
     _report(hunt, folder, json)
     return 0

@@ -44,6 +44,7 @@ Json = Annotated[bool, typer.Option("--json", help="One JSON document on stdout.
 
 
 RESULTS = Path("results")
+_TIME = "write a time, such as '2 s' or '300 ms'."
 
 
 class ModeName(StrEnum):
@@ -51,6 +52,23 @@ class ModeName(StrEnum):
 
     rapid = "rapid"
     normal = "normal"
+
+
+def seconds_of(option: str, text: str | None) -> float | None:
+    """A time such as '2 s', '300 ms' or 2. Errors: Usage."""
+    from gaitsim.errors import Usage
+    from gaitsim.spec.quantity import in_plain_letters
+    from gaitsim.units import UnknownUnit, parse_quantity, parse_unit
+
+    if text is None:
+        return None
+    try:
+        quantity = parse_quantity(text)
+    except UnknownUnit:
+        quantity = None
+    if quantity is None or (quantity.unit.text != "1" and quantity.unit.dimension != parse_unit("s").dimension):
+        raise Usage(f"{option} {text}: {in_plain_letters(text) or _TIME}")
+    return quantity.value
 
 
 def open_library(spec: Path | None, folders: list[Path] | None) -> Library:
@@ -73,9 +91,11 @@ def open_library(spec: Path | None, folders: list[Path] | None) -> Library:
 
 def read_document(spec: Path, settings: list[str] | None) -> Mapping:
     """The spec with its settings."""
+    from gaitsim.cli.foreign import refuse_foreign
     from gaitsim.spec.inheritance import split_setting
     from gaitsim.spec.resolve import read_spec
 
+    refuse_foreign(spec)
     return read_spec(spec, [split_setting(text) for text in settings or []])
 
 

@@ -26,6 +26,7 @@ class Products:
     """Files that were made in a folder, and what could not be made.
 
     faults: what the user must mend. lacks: what the model or this machine has not, which is no failure.
+    quiet: no lines of progress where stderr is no terminal.
     """
 
     folder: Path
@@ -36,6 +37,7 @@ class Products:
     report: Path | None = None
     faults: list[GaitsimError] = field(default_factory=list)
     lacks: list[str] = field(default_factory=list)
+    quiet: bool = False
 
     @property
     def exit_code(self) -> int:
@@ -76,12 +78,14 @@ class Products:
         from gaitsim.analysis.drawing import save
 
         taken: set[str] = set()
-        for maker in makers:
+        hear = console.progress("figures", self.quiet)
+        for k, maker in enumerate(makers, start=1):
             for drawing in self.attempt("a figure", maker) or []:
                 named = _renamed(drawing, taken)
                 self.drawings.append(named)
                 where = self.folder / "figures"
                 self.figures += self.attempt(f"the figure {named.name}", partial(save, [named], where, formats)) or []
+            hear(k, len(makers))
 
     def export(self, replays: Sequence[Replay], formats: Sequence[str], every: float | None) -> None:
         """Write the signals of each run in each format: sto, csv, nc; one instant in `every` seconds, or all."""
@@ -98,7 +102,7 @@ class Products:
 
         def make() -> Path | None:
             try:
-                return record(replay, self.folder / f"video.{ending}", options, console.progress("video"))
+                return record(replay, self.folder / f"video.{ending}", options, console.progress("video", self.quiet))
             except NoOpenGL as error:
                 self.remark([str(error)])
                 return None

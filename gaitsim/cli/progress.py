@@ -12,7 +12,6 @@ if TYPE_CHECKING:
     from gaitsim.optimization.search import Progress
 
 _EVERY = 0.2  # seconds between updates on a terminal
-_PLAIN_EVERY = 5.0  # seconds between plain lines
 
 
 class ProgressLine:
@@ -27,7 +26,7 @@ class ProgressLine:
     def update(self, progress: Progress) -> None:
         now = time.monotonic()
         last = progress.generation == self._generations
-        if now - self._said < (_EVERY if self._terminal else _PLAIN_EVERY) and not last:
+        if now - self._said < (_EVERY if self._terminal else console.PLAIN_EVERY) and not last:
             return
         text = self._text(progress, now - self._began)
         if text == self._shown:

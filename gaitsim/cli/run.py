@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
+from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust, seconds_of
 from gaitsim.cli.source import open_source
 from gaitsim.errors import SimulationFailed
 
@@ -41,6 +41,9 @@ def run(
     ] = None,
     seed: Annotated[int | None, typer.Option(help="Of --draws: the same seed draws the same (default: 1).")] = None,
     out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write every signal to a CSV file.")] = None,
+    every: Annotated[
+        str | None, typer.Option(metavar="TIME", help="Of --out: one instant each '10 ms'; by default all.")
+    ] = None,
     no_save: Annotated[bool, typer.Option("--no-save", help="Keep no result folder.")] = False,
     candidate: Annotated[
         str | None,
@@ -61,7 +64,7 @@ def run(
 
     gaitsim run specs/walking_geyer2010.yaml --draws 10 --within '1 %' --seed 1
 
-    gaitsim run specs/hopping_geyer2003.yaml --set simulate.step='1 ms' --out hop.csv
+    gaitsim run specs/hopping_geyer2003.yaml --out hop.csv --every '10 ms'
 
     gaitsim run results/2026-11-22-hopping-3f9c --candidate 2
     """
@@ -78,22 +81,24 @@ def run(
         raise Usage("--out writes one trajectory; drop --vary or study:, or --set one value.")
     _check_places(out, no_save)
     models = [source.model(row.document) for row in rows]
+    spacing = _spacing(every, out, models)
     _say(dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]))
     starts = Starts(source)
     if drawn:
-        outcomes = _all(drawn_models(models, drawn, spec), mode, starts)
+        outcomes = _all(drawn_models(models, drawn, spec), mode, starts, json)
         rows = rows * drawn.count
     elif len(rows) == 1 and not rows[0].settings:
         simulator = Simulator(models[0], mode.value)
         starts.look_at(simulator)
         _say(starts.warnings)
-        outcomes = [simulator.run(recorded=out is not None)]
+        with console.waiting("simulating", quiet=json):
+            outcomes = [simulator.run(recorded=out is not None)]
     else:
-        outcomes = _all(models, mode, starts)
+        outcomes = _all(models, mode, starts, json)
     if out is not None and outcomes[0].trajectory is not None:
         from gaitsim.results.store import save_trajectory
 
-        save_trajectory(out, outcomes[0])
+        save_trajectory(out, outcomes[0] if spacing is None else outcomes[0].every(spacing))
     folder = None
     if not no_save:
         folder = _saved(source, models, mode, rows, outcomes, drawn)
@@ -116,14 +121,29 @@ def _check_places(out: Path | None, no_save: bool) -> None:
         raise CannotSave(f"{RESULTS}: {rule}; rename the file, or use --no-save.")
 
 
-def _all(models: Sequence[Model], mode: ModeName, starts: Starts) -> list[Outcome]:
+def _spacing(every: str | None, out: Path | None, models: Sequence[Model]) -> float | None:
+    """Seconds from one instant of --out to the next; None for all. Errors: Usage, before anything is simulated."""
+    from gaitsim.errors import Usage
+    from gaitsim.simulation.outcome import steps_in
+
+    spacing = seconds_of("--every", every)
+    if spacing is not None:
+        if out is None:
+            raise Usage(f"--every {every}: this is of --out; name a file, such as --out run.csv, or leave it out.")
+        steps_in(spacing, models[0].simulate.step)
+    return spacing
+
+
+def _all(models: Sequence[Model], mode: ModeName, starts: Starts, quiet: bool) -> list[Outcome]:
     from gaitsim.simulation.batch import run_all
 
     outcomes: list[Outcome] = []
+    hear = console.progress("runs", quiet)
     for outcome in run_all(models, mode.value, starts.look_at):
         if not outcomes:
             _say(starts.warnings)
         outcomes.append(outcome)
+        hear(len(outcomes), len(models))
     return outcomes
 
 

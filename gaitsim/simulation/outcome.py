@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
+
+from gaitsim.errors import Usage
 
 
 @dataclass(frozen=True)
@@ -38,3 +40,22 @@ class Outcome:
     @property
     def simulated_seconds(self) -> float:
         return self.steps * self.step
+
+    def every(self, interval: float) -> Outcome:
+        """The same run, of whose trajectory one instant in `interval` seconds is kept, the first included.
+
+        Errors: Usage unless that is a whole number of steps.
+        """
+        whole, steps = self.trajectory, steps_in(interval, self.step)
+        if whole is None:
+            return self
+        part = replace(whole, times=whole.times[::steps], values=whole.values[::steps])
+        return replace(self, trajectory=part)
+
+
+def steps_in(interval: float, step: float) -> int:
+    """How many steps an interval has, both in s. Errors: Usage unless that is a whole number."""
+    steps = round(interval / step)
+    if steps < 1 or abs(steps * step - interval) > 1e-9:
+        raise Usage(f"one instant every {interval:g} s: the run has steps of {step:g} s; write a multiple of that.")
+    return steps
