@@ -226,7 +226,12 @@ def test_a_walker_has_figures_with_words_and_units() -> None:
     drawings = {drawing.name: drawing for drawing in gait_figures(like_people())}
     names = ["angles", "forces", "pressure", "moments", "activations", "metabolics", "steps", "margin", "symmetry"]
     assert list(drawings) == [f"gait_{name}" for name in names]
-    assert "right r 1.00" in drawings["gait_angles"].caption
+    for name in ("gait_angles", "gait_moments"):
+        assert "RMSE" not in drawings[name].caption
+        assert "in the table Compared with people" in drawings[name].caption
+    # A walker whose sides are alike has bars of no length; a dot stands where each is.
+    (dots,) = drawings["gait_symmetry"].figure.axes[0].collections
+    assert len(dots.get_offsets()) == len(drawings["gait_symmetry"].figure.axes[0].patches) > 5
     assert "fukuchi2018" in drawings["gait_angles"].caption
     assert "step length 0.697 ± 0.05 m, cadence 100 ± 0 steps" in drawings["gait_steps"].caption
     assert "7 strides of the right leg" in drawings["gait_forces"].caption

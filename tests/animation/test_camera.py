@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gaitsim.animation.camera import _smooth, follow
+from gaitsim.animation.caption import room_for
 from gaitsim.animation.posture import Posture, rows_at
 from gaitsim.animation.stage import stage_of
 from tests.animation.runs import run_of
@@ -41,3 +42,21 @@ def test_the_scale_of_arrows_is_a_round_number_and_leaves_room() -> None:
     views = follow(posture, rows, 0.05, 0.75)
     assert views.newtons in (1e3, 2e3, 5e3, 1e4, 2e4)
     assert np.max(replay.trajectory["ground.force"][rows]) / views.newtons < 0.6
+
+
+def test_a_small_picture_keeps_its_words_off_the_body() -> None:
+    replay = run_of("hopping_leg_mass")
+    posture = Posture(stage_of(replay.model), replay.trajectory)
+    rows = rows_at(replay.trajectory, np.arange(0, 1, 0.1))
+    above, below = room_for(200, 200, 2)
+    views = follow(posture, rows, 0.1, 1.0, (above, below))
+    posture.take(int(rows[0]))
+    extents = []
+    for row in rows:
+        posture.take(int(row))
+        extents.append([end[2] for end in posture.extent])
+    lowest, highest = np.min(extents), np.max(extents)
+    bottom, top = (views.points[0, 2] + way * views.half_height for way in (-1, 1))
+    assert below > 0.15
+    assert min(lowest, 0) - bottom > 0.95 * below * (top - bottom)
+    assert top - highest > 0.95 * above * (top - bottom)

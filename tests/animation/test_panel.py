@@ -101,3 +101,14 @@ def test_scopes_by_pattern_and_by_a_wrong_name() -> None:
     ]
     with pytest.raises(NoSuchSignal, match=r"extensor\.force"):
         chosen(model, ["extensor.forc"])
+
+
+def test_the_cursor_leaves_titles_alone_on_the_first_frame() -> None:
+    """It stands at the left end then, where the titles begin, and the first frame is the poster."""
+    scopes = panel(4.0)
+    pixels = scopes.picture(0).astype(int)
+    red = (pixels[..., 0] > 190) & (pixels[..., 1] < 60) & (pixels[..., 2] < 60)
+    rows = np.flatnonzero(red[:, int(cursor(scopes.picture(0)))])
+    first, second = scopes._page(0.0).spans
+    assert set(rows) == set(range(*first)) | set(range(*second))
+    assert second[0] - first[1] > 10

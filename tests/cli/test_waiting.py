@@ -45,7 +45,7 @@ def test_out_is_written_every_so_often(
     words = ("run", str(SPEC), "--no-save", "--set", "simulate.duration=0.1 s", "--out")
     assert gaitsim(capsys, *words, "all.csv").code == 0
     assert gaitsim(capsys, *words, "some.csv", "--every", "20 ms").code == 0
-    every, some = (list(csv.reader(Path(name).open())) for name in ("all.csv", "some.csv"))
+    every, some = (list(csv.reader(Path(name).read_text().splitlines())) for name in ("all.csv", "some.csv"))
     steps = (len(every) - 1) // 5
     assert len(some) == 6
     assert some == [every[0], *every[1::steps]]
