@@ -114,12 +114,12 @@ def _of_energy(replay: Replay, legs: Legs) -> Iterator[Quantity]:
 def gait_table(replay: Replay) -> Table | None:
     """The numbers of a gait; None for what does not walk on two legs."""
     found = {name: row for name, row in gait_numbers(replay).items() if "mean" in row}
-    columns = ("gait", "mean", "deviation", "left", "right", "unit")
+    columns = ("gait", "unit", "mean", "deviation", "left", "right")
     rows = tuple(
-        (name, *(_shown(row.get(word), 4) for word in columns[1:-1]), shown_unit(row["unit"]))
+        (name, shown_unit(row["unit"]), *(_shown(row.get(word), 4) for word in columns[2:]))
         for name, row in found.items()
     )
-    return Table(columns, rows, frozenset(range(1, 5))) if rows else None
+    return Table(columns, rows, frozenset(range(2, 6))) if rows else None
 
 
 def norms_table(replay: Replay) -> Table | None:
