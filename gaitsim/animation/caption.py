@@ -72,7 +72,7 @@ class Caption:
         picture[round(row) - half : round(row) + half + 1, begin:end] = colours.scale(end - begin)
         return [
             Words("0", left, row, font, "lm"),
-            Words("1  muscle activation", end + 0.3 * font, row, font, "lm"),
+            Words("1  activation", end + 0.3 * font, row, font, "lm"),
         ]
 
 
