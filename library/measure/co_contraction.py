@@ -4,7 +4,7 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class CoContraction(Component):
-    """How much two groups of muscles pull a joint both ways at once: the mean over time of the product of moments."""
+    """How much two groups of muscles pull against one another: the mean square of the smaller of their moments."""
 
     unit = Parameter("N m", "What is called one unit.", default=1, bounds=(1e-9, 1e9), source="definition: SI")
     settle = Parameter(
@@ -17,15 +17,16 @@ class CoContraction(Component):
 
     steps = State("1", "Steps since the start.")
     counted = State("1", "Steps that count.")
-    total = State("1", "Sum of the products over them.")
+    total = State("1", "Sum of the squares over them.")
 
-    value = Metric("1", "The mean product.")
+    value = Metric("1", "The mean square.")
 
     @staticmethod
     def update(p, u, x, y, dt):
         if x.steps * dt >= p.settle:
             x.counted = x.counted + 1
-            x.total = x.total + max(0.0, u.opening / p.unit) * max(0.0, -u.closing / p.unit)
+            smaller = max(0.0, min(u.opening, -u.closing)) / p.unit
+            x.total = x.total + smaller * smaller
         x.steps = x.steps + 1
 
     @staticmethod

@@ -93,4 +93,12 @@ def test_mean_squares() -> None:
 
 def test_co_contraction() -> None:
     signals = {"opening": [4.0, 4.0, -4.0, 4.0], "closing": [-6.0, 6.0, -6.0, -2.0]}
-    assert metrics("measure/co_contraction", signals, 1.0, unit=2.0)["value"] == pytest.approx((6 + 2) / 4)
+    assert metrics("measure/co_contraction", signals, 1.0, unit=2.0)["value"] == pytest.approx((4 + 1) / 4)
+
+
+def test_work_is_given_while_a_path_shortens() -> None:
+    signals = {"force": [0.0, 100.0, 100.0, 100.0, 0.0], "length": [0.5, 0.5, 0.46, 0.44, 0.5]}
+    found = metrics("measure/work", signals, 0.1, settle=0.0)
+    # 4 J and 2 J given, 3 J taken, in the four steps after the first instant.
+    assert (found["given"], found["taken"]) == (pytest.approx(6 / 0.4), pytest.approx(3 / 0.4))
+    assert found["value"] == pytest.approx(3 / 0.4)
