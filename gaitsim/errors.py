@@ -3,9 +3,29 @@
 from __future__ import annotations
 
 import difflib
+import re
+import shlex
 from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import IntEnum
+
+
+def command(*words: object) -> str:
+    """A command of gaitsim as it can be pasted into a shell."""
+    return shlex.join(["gaitsim", *map(str, words)])
+
+
+_LONGEST = 200  # letters of one word or value that a message repeats
+_LONGEST_LINE = 1000  # letters of a line of text below which a caret still shows a place
+_LONG = re.compile(r"\S{201,}")
+
+
+def shortened(text: str) -> str:
+    """A text as a message can repeat it: without what is in the middle of a long one."""
+    if len(text) <= _LONGEST:
+        return text
+    half = _LONGEST // 2
+    return f"{text[:half]} ... ({len(text) - 2 * half} letters) ... {text[-half:]}"
 
 
 class ExitCode(IntEnum):
@@ -30,12 +50,12 @@ class Mark:
     text: str = ""
 
     def __str__(self) -> str:
-        return ":".join([self.file, *(str(n) for n in (self.line, self.column) if n)])
+        return ":".join([shortened(self.file), *(str(n) for n in (self.line, self.column) if n)])
 
     @property
     def frame(self) -> str:
         """The line with a caret under the column; empty if the place has no text."""
-        if not self.text:
+        if not self.text or len(self.text) > _LONGEST_LINE:
             return ""
         number = f"{self.line:>5}"
         blank = " " * len(number)
@@ -50,21 +70,14 @@ class Fault:
     mark: Mark | None = None
     address: str = ""
 
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "message", _LONG.sub(lambda found: shortened(found[0]), self.message))
+        object.__setattr__(self, "address", shortened(self.address))
+
     def __str__(self) -> str:
         place = [str(self.mark)] if self.mark else []
         address = [self.address] if self.address else []
         return ": ".join([*place, *address, self.message]) + (self.mark.frame if self.mark else "")
-
-
-_LONGEST = 200  # letters of one word or value that a message repeats
-
-
-def shortened(text: str) -> str:
-    """A text as a message can repeat it: without what is in the middle of a long one."""
-    if len(text) <= _LONGEST:
-        return text
-    half = _LONGEST // 2
-    return f"{text[:half]} ... ({len(text) - 2 * half} letters) ... {text[-half:]}"
 
 
 class GaitsimError(Exception):
@@ -123,7 +136,7 @@ def _place(fault: Fault) -> tuple[str, int, int]:
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
     """The known word that was probably meant."""
-    near = difflib.get_close_matches(word, sorted(known), n=1, cutoff=0.6)
+    near = difflib.get_close_matches(word[:_LONGEST], sorted(known), n=1, cutoff=0.6)
     return near[0] if near else None
 
 

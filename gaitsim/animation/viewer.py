@@ -18,6 +18,7 @@ from gaitsim.animation.player import Player
 from gaitsim.animation.posture import Floats, Posture, rows_at
 from gaitsim.animation.refusal import NoDisplay
 from gaitsim.animation.stage import stage_of
+from gaitsim.errors import command
 
 _SPACING = 1 / 60  # s between two postures that the camera's path is made of
 _FRAME = 1 / 60  # s of the viewer's time
@@ -55,7 +56,7 @@ def view(replay: Replay, speed: float = 1.0, paused: bool = False) -> None:
 
 def check_display(path: Path) -> None:
     """Errors: NoDisplay, with the next move for the spec or result."""
-    move = f"make a video instead: gaitsim analyze {path}"
+    move = f"make a video instead: {command('analyze', path)}"
     if not has_display():
         raise NoDisplay(f"there is no display for a window; {move}")
     # The viewer opens its window in a thread of its own, whose failure it would wait for without end.

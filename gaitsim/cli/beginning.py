@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
+from shlex import quote
 from typing import Any
 
 from gaitsim.cli.source import source_of_spec, started_from
 from gaitsim.cli.starts import Starts
 from gaitsim.cli.tuning import Tuning
-from gaitsim.errors import Fault, InvalidSpec, Mark, Usage, did_you_mean
+from gaitsim.errors import Fault, InvalidSpec, Mark, Usage, command, did_you_mean
 from gaitsim.optimization.algorithms import ALGORITHMS
 from gaitsim.optimization.journal import old_form_notices, read
 from gaitsim.results.bundle import SPEC, START, Bundle
@@ -31,6 +32,7 @@ from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.schema import SearchSection, optimize_section
 
 _SMOKE = {"population": 4, "generations": 2}
+_MOVE = "make room or rights there"
 _LEAST = {"population": 2, "generations": 1, "seed": 0}
 
 
@@ -60,7 +62,7 @@ class Request:
 def begun(request: Request, root: Path) -> Tuning:
     """A new search in a new result folder."""
     if is_result(request.spec):
-        move = f"gaitsim optimize {request.spec} --resume, or SPEC --from {request.spec}"
+        move = f"{command('optimize', request.spec, '--resume')}, or SPEC --from {quote(str(request.spec))}"
         raise Usage(f"{request.spec} is a result; to continue or to start from it: {move}")
     source = source_of_spec(request.spec, request.settings, request.library, tuned=False)
     source, notices = started_from(source, request.spec, request.origin, request.trust)
@@ -83,7 +85,7 @@ def begun(request: Request, root: Path) -> Tuning:
     bundle = source.bundle([model, *each])
     told = {"spec": str(request.spec), "search": search, "smoke": request.smoke, "notices": notices}
     manifest = new_manifest("optimize", bundle, mode, **told)
-    folder = create_result(root, bundle, model, simulator.xml, manifest, {"evaluations.jsonl": ""})
+    folder = create_result(root, bundle, model, simulator.xml, manifest, {"evaluations.jsonl": ""}, _MOVE)
     bundle = replace(bundle, folder=folder)
     return Tuning(folder, manifest, bundle, model, [*model.notices, *starts.warnings, *notices])
 
@@ -104,6 +106,7 @@ def resumed(request: Request, root: Path) -> Tuning:
         rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
         raise BadResult(f"{folder}: {rule}; install those, or start a new search with --from {folder}.")
     check_trust(bundle, request.trust)
+    _check_links(folder)
     if not is_result(request.spec):
         _check_same_spec(request, folder, bundle)
     _check_same_search(request, search, str(manifest["mode"]))
@@ -113,6 +116,14 @@ def resumed(request: Request, root: Path) -> Tuning:
     search["generations"] = request.generations or search["generations"]
     notices = [f"resuming {folder}", *old_form_notices(folder)]
     return Tuning(folder, manifest | {"search": search}, bundle, bundle.model(), notices)
+
+
+def _check_links(folder: Path) -> None:
+    """A search writes into its folder, and through no link into another file. Errors: BadResult."""
+    links = sorted(path for path in folder.iterdir() if path.is_symlink())
+    if links:
+        rule = "this is a link, and a search that goes on would write to what it leads to"
+        raise BadResult(f"{links[0]}: {rule}; put the file itself in its place.")
 
 
 def _check_beside_resume(request: Request) -> None:
@@ -186,7 +197,7 @@ def _newest(spec: Path, root: Path) -> Path:
         return max(found)[2]
     rule = f"{root}: there is no search of {spec} to resume"
     if trials:
-        move = f"name it to continue it: gaitsim optimize {max(trials)[2]} --resume"
+        move = f"name it to continue it: {command('optimize', max(trials)[2], '--resume')}"
         raise BadResult(f"{rule} but one by --smoke; {move}")
     raise BadResult(f"{rule}; start one without --resume.")
 
@@ -201,5 +212,6 @@ def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
     if changed:
         words = ["spec.yaml (or its --set)" if path == SPEC else path for path in changed]
         rule = f"what {folder} was begun with has changed since: {', '.join(words)}"
-        move = f"continue the old one: gaitsim optimize {folder} --resume; or start a new search with --from {folder}"
+        old = command("optimize", folder, "--resume")
+        move = f"continue the old one: {old}; or start a new search with --from {quote(str(folder))}"
         raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.spec))))

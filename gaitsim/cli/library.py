@@ -152,7 +152,7 @@ def new_component_file(
     made = {folder / "components" / kind / file: text}
     if file.endswith(".py"):
         made[folder / "tests" / f"test_{name}.py"] = test_of(kind, name)
-    write_new(made)
+    write_new(made, "choose another --folder")
     if json:
         console.give_json({"use": f"{kind}/{name}", "files": [str(path) for path in made]})
         return

@@ -8,10 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
+from gaitsim.cli.keeping import Keeping
+from gaitsim.cli.options import Json, Libraries, ModeName, Set, Spec, Trust
+from gaitsim.errors import command
 
 if TYPE_CHECKING:
     from gaitsim.analysis.limits import Hunt, Limit
+    from gaitsim.results.source import Source
 
 _FINEST = 1e-6
 
@@ -73,9 +76,9 @@ def limit(
         console.say(notice)
     hunt = Hunt(source, rows[0].document, rows[0].settings, limits, until_of(until, model), mode.value)
     hunt.run(console.progress("runs", quiet=json))
-    folder = None if no_save else _saved(hunt)
-    _report(hunt, folder, json)
-    return 0
+    keeping = _kept(None if no_save else source, hunt)
+    _report(hunt, keeping.folder, json)
+    return keeping.code(0)
 
 
 def _check_numbers(points: int, tolerance: float) -> None:
@@ -87,13 +90,12 @@ def _check_numbers(points: int, tolerance: float) -> None:
         raise Usage(f"--tolerance {tolerance:g}: this is a part of the range, from {_FINEST:g} to 1, such as 0.01.")
 
 
-def _saved(hunt: Hunt) -> Path:
-    from gaitsim.compiler.mjcf import assemble
-    from gaitsim.results.store import save_run
-
-    model = hunt.models[0]
-    xml = assemble(model, model.values()).xml
-    return save_run(RESULTS, hunt.source.bundle(hunt.models), model, xml, hunt.mode, hunt.rows)
+def _kept(source: Source | None, hunt: Hunt) -> Keeping:
+    keeping = Keeping(source, hunt.models, hunt.mode)
+    for settings, outcome in hunt.rows:
+        keeping.add(settings, outcome)
+    keeping.close()
+    return keeping
 
 
 def _report(hunt: Hunt, folder: Path | None, json: bool) -> None:
@@ -110,7 +112,7 @@ def _report(hunt: Hunt, folder: Path | None, json: bool) -> None:
             tried = ", ".join(limit.beyond)
             console.say(f"{limit.address}: beyond its first limit it holds again at {tried}; there is no one limit.")
     if folder:
-        console.say(f"saved in {folder}; see a run: gaitsim run {folder} --candidate NUMBER")
+        console.say(f"saved in {folder}; see a run: {command('run', folder, '--candidate', 'NUMBER')}")
 
 
 def _row(limit: Limit, hunt: Hunt) -> tuple[str, ...]:

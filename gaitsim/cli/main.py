@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import os
 import sys
 import traceback
@@ -12,7 +13,7 @@ import typer
 from gaitsim import __version__
 from gaitsim.cli import analyze, check, cite, console, library, limit, new, optimize, results, run, schema, show, view
 from gaitsim.cli.interrupts import heard_once
-from gaitsim.errors import ExitCode, GaitsimError
+from gaitsim.errors import ExitCode, GaitsimError, Usage
 
 app = typer.Typer(
     help="Neuromuscular gait models from YAML: check, simulate, tune, show.",
@@ -52,6 +53,9 @@ def _main(
 
 def main(arguments: list[str] | None = None) -> None:
     """Run one command; the exit code tells the kind of failure."""
+    for stream in (sys.stdout, sys.stderr):
+        if isinstance(stream, io.TextIOWrapper):
+            stream.reconfigure(errors="backslashreplace")  # a name on the disk may hold any bytes
     try:
         with heard_once():
             code = _ran(sys.argv[1:] if arguments is None else arguments)
@@ -65,6 +69,7 @@ def main(arguments: list[str] | None = None) -> None:
 def _ran(words: list[str]) -> object:
     """What a command returns, or the exit code of its failure."""
     try:
+        _check_words(words)
         return app(args=words, prog_name="gaitsim", standalone_mode=False)
     except GaitsimError as error:
         console.say_error(error)
@@ -78,6 +83,20 @@ def _ran(words: list[str]) -> object:
         raise
     except Exception as error:
         return _other(error)
+
+
+def _check_words(words: list[str]) -> None:
+    """Errors: Usage for a word that is no text, and for a folder that is gone."""
+    for word in words:
+        try:
+            word.encode("utf-8")
+        except UnicodeEncodeError as error:
+            shown = word.encode("utf-8", "backslashreplace").decode("utf-8")
+            raise Usage(f"{shown}: this name is not UTF-8, so no text can hold it; rename the file.") from error
+    try:
+        os.getcwd()  # noqa: PTH109 (only asked whether it is there)
+    except FileNotFoundError as error:
+        raise Usage("the current folder is not there any more; change to one that is.") from error
 
 
 def _other(error: Exception) -> int:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from pathlib import Path
+from shlex import quote
 from typing import Annotated
 
 import typer
 
 from gaitsim.cli import console
 from gaitsim.cli.options import Json
+from gaitsim.errors import command
 
 
 def _shipped(incomplete: str) -> list[str]:
@@ -39,10 +41,11 @@ def new(
     if folder.exists():
         raise Usage(f"{folder} is there already; gaitsim new makes a folder of its own, so choose another name.")
     files = study(origin)
-    write_new({folder / name: text for name, text in files.items()})
+    write_new({folder / name: text for name, text in files.items()}, "name another folder")
     if json:
         console.give_json({"folder": str(folder), "files": list(files)})
         return
     for name in files:
         console.give(str(folder / name))
-    console.say(f"next: cd {folder} && gaitsim run my_{origin}.yaml; more in {folder / 'README.md'}")
+    first = f"cd {quote(str(folder))} && {command('run', f'my_{origin}.yaml')}"
+    console.say(f"next: {first}; more in {folder / 'README.md'}")

@@ -11,6 +11,7 @@ import typer
 
 from gaitsim.cli import console
 from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
+from gaitsim.errors import command
 
 if TYPE_CHECKING:
     from gaitsim.cli.adoption import Adoption
@@ -170,4 +171,4 @@ def _report(tuning: Tuning, progress: Progress, wall: float, json: bool, adoptio
         look = shlex.join(["gaitsim", "run", str(tuning.folder), "--candidate", example.candidate.name])
         console.give(f"{count} failed: {reason_of(example)}; see such as: {look}")
     console.give(f"stopped: {progress.stop}")
-    console.say(f"saved in {tuning.folder}; see it: gaitsim run {tuning.folder}")
+    console.say(f"saved in {tuning.folder}; see it: {command('run', tuning.folder)}")

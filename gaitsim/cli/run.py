@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gaitsim.cli import console
+from gaitsim.cli.keeping import Keeping
 from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust, seconds_of
 from gaitsim.cli.source import open_source
-from gaitsim.errors import SimulationFailed
+from gaitsim.errors import SimulationFailed, command
 
 if TYPE_CHECKING:
     from gaitsim.cli.starts import Starts
     from gaitsim.model import Model
     from gaitsim.optimization.draws import Draws
-    from gaitsim.results.source import Source
     from gaitsim.simulation.outcome import Outcome
     from gaitsim.spec.study import Variant
 
@@ -71,7 +71,6 @@ def run(
     from gaitsim.cli.draws import drawn_models, draws_asked
     from gaitsim.cli.starts import Starts
     from gaitsim.errors import Usage
-    from gaitsim.simulation.run import Simulator
     from gaitsim.spec.study import variants
 
     drawn = draws_asked(draws, within, seed, vary or [], out)
@@ -84,27 +83,28 @@ def run(
     spacing = _spacing(every, out, models)
     _say(dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]))
     starts = Starts(source)
-    if drawn:
-        outcomes = _all(drawn_models(models, drawn, spec), mode, starts, json)
-        rows = rows * drawn.count
-    elif len(rows) == 1 and not rows[0].settings:
-        simulator = Simulator(models[0], mode.value)
-        starts.look_at(simulator)
-        _say(starts.warnings)
-        with console.waiting("simulating", quiet=json):
-            outcomes = [simulator.run(recorded=out is not None)]
-    else:
-        outcomes = _all(models, mode, starts, json)
+    each = drawn_models(models, drawn, spec) if drawn else models
+    rows = rows * drawn.count if drawn else rows
+    single = len(rows) == 1 and not rows[0].settings
+    keeping = Keeping(None if no_save else source, models, mode.value, drawn)
+    outcomes: list[Outcome] = []
+    try:
+        for row, outcome in zip(rows, _outcomes(each, mode, starts, single, out is not None, json), strict=True):
+            outcomes.append(outcome)
+            keeping.add(row.settings, outcome)
+        keeping.close()
+    except KeyboardInterrupt:
+        keeping.close("interrupted")
+        _report(rows[: len(outcomes)], outcomes, models, mode, keeping.folder, json, drawn)
+        raise
     if out is not None and outcomes[0].trajectory is not None:
         from gaitsim.results.store import save_trajectory
 
-        save_trajectory(out, outcomes[0] if spacing is None else outcomes[0].every(spacing))
-    folder = None
-    if not no_save:
-        folder = _saved(source, models, mode, rows, outcomes, drawn)
-    _report(rows, outcomes, models, mode, folder, json, drawn)
+        with keeping.noting():
+            save_trajectory(out, outcomes[0] if spacing is None else outcomes[0].every(spacing))
+    _report(rows, outcomes, models, mode, keeping.folder, json, drawn)
     _say_endings(rows, outcomes, drawn)
-    return _FAILED if all(outcome.status == "failed" for outcome in outcomes) else 0
+    return keeping.code(_FAILED if all(outcome.status == "failed" for outcome in outcomes) else 0)
 
 
 def _check_places(out: Path | None, no_save: bool) -> None:
@@ -134,38 +134,32 @@ def _spacing(every: str | None, out: Path | None, models: Sequence[Model]) -> fl
     return spacing
 
 
-def _all(models: Sequence[Model], mode: ModeName, starts: Starts, quiet: bool) -> list[Outcome]:
+def _outcomes(
+    models: Sequence[Model], mode: ModeName, starts: Starts, single: bool, recorded: bool, quiet: bool
+) -> Iterator[Outcome]:
+    """The outcomes of the models, in their order, as they end."""
     from gaitsim.simulation.batch import run_all
+    from gaitsim.simulation.run import Simulator
 
-    outcomes: list[Outcome] = []
+    if single:
+        simulator = Simulator(models[0], mode.value)
+        starts.look_at(simulator)
+        _say(starts.warnings)
+        with console.waiting("simulating", quiet):
+            outcome = simulator.run(recorded=recorded)
+        yield outcome
+        return
     hear = console.progress("runs", quiet)
-    for outcome in run_all(models, mode.value, starts.look_at):
-        if not outcomes:
+    for count, outcome in enumerate(run_all(models, mode.value, starts.look_at), start=1):
+        if count == 1:
             _say(starts.warnings)
-        outcomes.append(outcome)
-        hear(len(outcomes), len(models))
-    return outcomes
+        hear(count, len(models))
+        yield outcome
 
 
 def _say(lines: Iterable[str]) -> None:
     for line in lines:
         console.say(line)
-
-
-def _saved(
-    source: Source,
-    models: Sequence[Model],
-    mode: ModeName,
-    rows: Sequence[Variant],
-    outcomes: Sequence[Outcome],
-    draws: Draws | None,
-) -> Path:
-    from gaitsim.compiler.mjcf import assemble
-    from gaitsim.results.store import save_run
-
-    table = [(row.settings, outcome) for row, outcome in zip(rows, outcomes, strict=True)]
-    xml = assemble(models[0], models[0].values()).xml
-    return save_run(RESULTS, source.bundle(models), models[0], xml, mode.value, table, draws)
 
 
 def _report(
@@ -199,7 +193,7 @@ def _report(
     elif not single:
         _print_table(rows, outcomes, models)
     if folder:
-        look = f"; see a draw: gaitsim run {folder} --candidate NUMBER" if draws else ""
+        look = f"; see a draw: {command('run', folder, '--candidate', 'NUMBER')}" if draws else ""
         console.say(f"saved in {folder}{look}")
 
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from gaitsim.cli.workplace import Workplace
 from gaitsim.cluster.timings import Timings
-from gaitsim.errors import SimulationFailed
+from gaitsim.errors import SimulationFailed, command
 from gaitsim.model import Model
 from gaitsim.optimization.algorithms import ALGORITHMS
 from gaitsim.optimization.failures import reason_of
@@ -125,5 +125,5 @@ class Tuning:
             return
         count, example = progress.failures.most_common[0]
         rule = f"every one of {progress.evaluations} candidates failed; {count} because {reason_of(example)}"
-        move = f"look at one: gaitsim run {self.folder} --candidate {example.candidate.name}"
+        move = f"look at one: {command('run', self.folder, '--candidate', example.candidate.name)}"
         raise SimulationFailed(f"{self.folder}: {rule}; {move}")

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 
 
-def write_new(files: Mapping[Path, str]) -> None:
-    """Write texts to files that do not exist yet, with their folders.
+def write_new(files: Mapping[Path, str], move: str) -> None:
+    """Write texts to files that do not exist yet, with their folders; `move` is what helps where that fails.
 
     Errors: CannotSave, with nothing left behind.
     """
@@ -27,4 +27,4 @@ def write_new(files: Mapping[Path, str]) -> None:
     except OSError as error:
         for path in made:
             path.unlink(missing_ok=True)
-        raise CannotSave(f"{error.filename or made[-1]}: {error.strerror}; choose another --folder.") from error
+        raise CannotSave(f"{error.filename or made[-1]}: {error.strerror}; {move}.") from error

@@ -19,6 +19,7 @@ _LOADERS: dict[str, Callable[[str, Path, str, str], ComponentFile]] = {
 }
 
 
+_LONGEST = 200  # letters; no file system has longer names
 KIND = "kind.yaml"  # the contract of a kind
 SKELETON = "_skeleton.py"  # what `gaitsim library new` begins with
 
@@ -137,7 +138,7 @@ class Library:
 
     def _files(self, reference: str) -> list[Path]:
         kind, _, name = reference.partition("/")
-        if not (kind.isidentifier() and name.isidentifier()):
+        if not (kind.isidentifier() and name.isidentifier()) or len(reference) > _LONGEST:
             return []
         paths = [folder / kind / f"{name}{suffix}" for folder in self.folders for suffix in _LOADERS]
         return [path for path in paths if self._has(path)]
@@ -146,7 +147,14 @@ class Library:
         return path.is_file() if self.texts is None else path in self.texts
 
     def _text(self, path: Path, what: str) -> str:
-        return text_of(path, shown(path), what) if self.texts is None else self.texts[path]
+        """What a file says; of one of another kind, which a link may lead to, no word is ever repeated."""
+        if self.texts is not None:
+            return self.texts[path]
+        real = path.resolve()
+        if real.suffix != path.suffix:
+            rule = f"this links to {real}, which is no {path.suffix} file"
+            raise InvalidSpec(Fault(f"{rule}; name a {what} of your own.", Mark(shown(path))))
+        return text_of(path, shown(path), what)
 
     def _matching(self, folder: Path, kind: str, suffix: str) -> list[Path]:
         """The files of a kind, or of all kinds (*), with a suffix."""

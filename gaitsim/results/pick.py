@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gaitsim.errors import Usage
+from gaitsim.errors import Usage, command
 from gaitsim.optimization.evaluation import Evaluation
 from gaitsim.optimization.journal import evaluations_in
 from gaitsim.results.manifest import BadResult
@@ -17,7 +17,8 @@ def pick(folder: Path, which: str) -> Evaluation:
     """
     found = evaluations_in(folder)
     if not found:
-        raise BadResult(f"{folder}: nothing was evaluated yet; continue it with: gaitsim optimize {folder} --resume")
+        again = command("optimize", folder, "--resume")
+        raise BadResult(f"{folder}: nothing was evaluated yet; continue it with: {again}")
     ranked = sorted((e for e in found if not e.failed), key=lambda e: e.cost)
     generation, colon, index = which.partition(":")
     if colon and generation.isdecimal() and index.isdecimal():

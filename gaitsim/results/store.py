@@ -33,13 +33,12 @@ class CannotSave(GaitsimError):
     """A result or a trajectory cannot be written."""
 
 
-Row = tuple[Map[str, str], Outcome]
-
-
 def create_result(
-    root: Path, bundle: Bundle, model: Model, xml: str, manifest: dict[str, Any], more: Map[str, str]
+    root: Path, bundle: Bundle, model: Model, xml: str, manifest: dict[str, Any], more: Map[str, str], move: str
 ) -> Path:
     """A new result folder with spec, model, MJCF, components, manifest and more files; its path.
+
+    move: what helps where it cannot be written.
 
     Errors: CannotSave, with nothing left behind.
     """
@@ -59,28 +58,9 @@ def create_result(
         if draft is not None:
             shutil.rmtree(draft, ignore_errors=True)
         reason = error.strerror or str(error)
-        raise CannotSave(f"{root}: the result cannot be saved ({reason}); free it, or use --no-save.") from error
+        raise CannotSave(f"{root}: the result cannot be saved ({reason}); {move}.") from error
     remember(bundle)
     return target
-
-
-def save_run(
-    root: Path, bundle: Bundle, model: Model, xml: str, mode: str, rows: Sequence[Row], draws: Draws | None = None
-) -> Path:
-    """The result of a run, of a study with one row a variant, or of draws around the model's starts; its path.
-
-    Errors: CannotSave.
-    """
-    manifest = new_manifest("run", bundle, mode, notices=list(model.notices)) | {"status": "complete"}
-    found = [row_data(settings, outcome) for settings, outcome in rows]
-    if draws:
-        manifest["draws"] = asdict(draws)
-        drawn = enumerate(draws.values(problem_of(model)), start=1)
-        found = [row | {"draw": k, "values": values} for row, (k, values) in zip(found, drawn, strict=True)]
-    lines = [json.dumps(row, allow_nan=False) for row in found]
-    headline = [*_tally(draws, rows), *(_headline(row, model.metrics) for row in found[:20])]
-    more = {"evaluations.jsonl": "\n".join(lines) + "\n", "README.md": readme(manifest, headline, "")}
-    return create_result(root, bundle, model, xml, manifest, more)
 
 
 def finish(folder: Path, manifest: dict[str, Any], headline: Sequence[str]) -> None:
@@ -102,21 +82,6 @@ def row_data(settings: Map[str, str], outcome: Outcome) -> dict[str, Any]:
         "simulated_seconds": outcome.simulated_seconds,
         "steps": outcome.steps,
     }
-
-
-def _tally(draws: Draws | None, rows: Sequence[Row]) -> list[str]:
-    """How many draws completed, as one line; nothing of other runs."""
-    if draws is None:
-        return []
-    done = sum(outcome.status == "completed" for _, outcome in rows)
-    return [f"{done} of {draws.count} draws within {100 * draws.within:g} % completed (seed {draws.seed})"]
-
-
-def _headline(row: Map[str, Any], units: Map[str, str]) -> str:
-    said = row_words(row)
-    found = {name: math.nan if v is None else v for name, v in row["metrics"].items()}
-    numbers = ", ".join(f"{name} {with_unit(f'{v:.5g}', units.get(name, '1'))}" for name, v in found.items())
-    return f"{said + ': ' if said else ''}{row['status']}{': ' + numbers if numbers else ''}"
 
 
 def _free_name(root: Path, name: str) -> Path:

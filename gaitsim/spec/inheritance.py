@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Callable, Iterator, Set
 from pathlib import Path
 
@@ -16,6 +17,7 @@ _SECTIONS = frozenset(
     {"about", "gaitsim", "initial", "objective", "parameters", "simulate", "study", "use_for"}
 )
 _SEARCHED = ("measures", "parts")
+_SPEC = re.compile(r"^\ufeff?gaitsim:[ \t]+\S", re.MULTILINE)
 
 
 def merged(base: Mapping, over: Mapping) -> Mapping:
@@ -156,6 +158,10 @@ def _is_value(node: Node) -> bool:
 def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], Mapping]) -> Mapping:
     """A parent; what is wrong with the file as a whole is said where it is named."""
     try:
+        # Whoever wrote `extends:` chose the file: of one that is no spec, no word is repeated.
+        if not _SPEC.search(document.text_of(path, shown)):
+            rule = f"{shown} is no spec, as no line of it says gaitsim: 1"
+            raise InvalidSpec(Fault(f"{rule}; name a spec, or write that line.", mark, "extends"))
         return read(path, shown)
     except InvalidSpec as error:
         raise InvalidSpec(

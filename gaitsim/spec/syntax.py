@@ -36,7 +36,9 @@ def explained(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[str, int, 
         return f"this quote is never closed; write {opener} where the text ends.", *opened
     if "a flow " in context and "expected ','" in problem:
         closer = "]" if "sequence" in context else "}"
-        word = next((w[0] for w in _BRACED.finditer(line) if w.start() < at.column < w.end()), "")
+        begin = max(0, at.column - 200)  # a longer word is no name with a side
+        column, near = at.column - begin, line[begin : at.column + 200]
+        word = next((w[0] for w in _BRACED.finditer(near) if w.start() < column < w.end()), "")
         if letter == "{" and word:
             return f'between braces a text with {{ or }} needs quotes; write "{word}".', *here
         if not "".join([line[at.column :], *lines[at.line + 1 :]]).strip():

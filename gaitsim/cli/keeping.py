@@ -1,0 +1,69 @@
+"""What a command keeps of its runs; what stands in the way of that is told after the runs themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gaitsim.cli import console
+from gaitsim.cli.options import RESULTS
+from gaitsim.errors import ExitCode, GaitsimError
+
+if TYPE_CHECKING:
+    from gaitsim.model import Model
+    from gaitsim.optimization.draws import Draws
+    from gaitsim.results.record import Record
+    from gaitsim.results.source import Source
+    from gaitsim.simulation.outcome import Outcome
+
+
+class Keeping:
+    """Keeps runs in a result folder, or nowhere if there is no source."""
+
+    def __init__(self, source: Source | None, models: Sequence[Model], mode: str, draws: Draws | None = None) -> None:
+        self.error: GaitsimError | None = None
+        self._source, self._models, self._mode, self._draws = source, models, mode, draws
+        self._record: Record | None = None
+
+    @property
+    def folder(self) -> Path | None:
+        """Where the runs are, if they are all there."""
+        return self._record.folder if self._record and not self.error else None
+
+    def add(self, settings: Mapping[str, str], outcome: Outcome) -> None:
+        """Keep one run, unless one before it could not be kept."""
+        if self._source and not self.error:
+            with self.noting():
+                self._record = self._record or self._begun(self._source)
+                self._record.add(settings, outcome)
+
+    def _begun(self, source: Source) -> Record:
+        from gaitsim.compiler.mjcf import assemble
+        from gaitsim.results.record import Record
+
+        model = self._models[0]
+        xml = assemble(model, model.values()).xml
+        return Record(RESULTS, source.bundle(self._models), model, xml, self._mode, self._draws)
+
+    @contextmanager
+    def noting(self) -> Iterator[None]:
+        """What goes wrong in the block is told at the end; the first of it."""
+        try:
+            yield
+        except GaitsimError as error:
+            self.error = self.error or error
+
+    def close(self, status: str = "complete") -> None:
+        """No run comes any more."""
+        if self._record:
+            with self.noting():
+                self._record.close("interrupted" if self.error else status)
+
+    def code(self, code: int) -> int:
+        """Say what was not kept; the exit code of a command that had this one otherwise."""
+        if self.error is None:
+            return code
+        console.say_error(self.error)
+        return ExitCode(self.error.exit_code)

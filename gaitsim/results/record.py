@@ -1,0 +1,106 @@
+"""The result of a run, a study or draws, kept run by run as they end."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+from collections.abc import Mapping as Map
+from contextlib import ExitStack
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+from gaitsim.model import Model
+from gaitsim.optimization.draws import Draws
+from gaitsim.results.bundle import Bundle
+from gaitsim.results.lock import Lock
+from gaitsim.results.manifest import new_manifest
+from gaitsim.results.readme import readme
+from gaitsim.results.rows import row_words
+from gaitsim.results.store import CannotSave, create_result, finish, row_data
+from gaitsim.results.tuned import problem_of
+from gaitsim.simulation.outcome import Outcome
+from gaitsim.units import with_unit
+
+_ROWS = "evaluations.jsonl"
+_MOVE = "make room or rights there, or use --no-save"
+_TOLD = 20  # runs that the README lists
+
+
+class Record:
+    """A result folder that begins with its first run. What was written of it stays, whatever comes after.
+
+    model: the first one that is run; xml: its MJCF. draws: around the model's starts, if the runs are these.
+    """
+
+    def __init__(
+        self, root: Path, bundle: Bundle, model: Model, xml: str, mode: str, draws: Draws | None = None
+    ) -> None:
+        self.folder: Path | None = None
+        self._root, self._bundle, self._model, self._xml, self._draws = root, bundle, model, xml, draws
+        self._manifest = new_manifest("run", bundle, mode, notices=list(model.notices))
+        if draws:
+            self._manifest["draws"] = asdict(draws)
+        self._drawn = draws.values(problem_of(model)) if draws else []
+        self._rows: list[dict[str, Any]] = []
+        self._held = ExitStack()
+
+    def add(self, settings: Map[str, str], outcome: Outcome) -> None:
+        """Keep one run more. Errors: CannotSave, with the runs before it as they were."""
+        row = row_data(settings, outcome)
+        if self._draws:
+            row |= {"draw": len(self._rows) + 1, "values": self._drawn[len(self._rows)]}
+        line = json.dumps(row, allow_nan=False) + "\n"
+        if self.folder is None:
+            more = {_ROWS: line, "README.md": readme(self._manifest, [], "")}
+            self.folder = create_result(self._root, self._bundle, self._model, self._xml, self._manifest, more, _MOVE)
+            self._held.enter_context(Lock(self.folder))
+        else:
+            self._append(line)
+        self._rows.append(row)
+
+    def close(self, status: str) -> None:
+        """Say how it ended: complete or interrupted. Errors: CannotSave."""
+        if self.folder is None:
+            return
+        with self._held:
+            try:
+                finish(self.folder, self._manifest | {"status": status}, self._headline())
+            except OSError as error:
+                raise self._cannot(error) from error
+
+    def _append(self, line: str) -> None:
+        """Write a line as a whole or not at all."""
+        assert self.folder is not None
+        path = self.folder / _ROWS
+        try:
+            size = path.stat().st_size
+            try:
+                with path.open("a", encoding="utf-8") as file:
+                    file.write(line)
+            except OSError:
+                os.truncate(path, size)
+                raise
+        except OSError as error:
+            raise self._cannot(error) from error
+
+    def _cannot(self, error: OSError) -> CannotSave:
+        count = f"the first {len(self._rows)} runs are" if len(self._rows) > 1 else "the first run is"
+        return CannotSave(f"{self.folder}: the result cannot be saved ({error.strerror or error}); {count} in it.")
+
+    def _headline(self) -> list[str]:
+        """The first runs, and how many draws completed, one line each."""
+        tally = []
+        if self._draws:
+            done = sum(row["status"] == "completed" for row in self._rows)
+            within = f"within {100 * self._draws.within:g} % completed (seed {self._draws.seed})"
+            tally = [f"{done} of {self._draws.count} draws {within}"]
+        return [*tally, *(_told(row, self._model.metrics) for row in self._rows[:_TOLD])]
+
+
+def _told(row: Map[str, Any], units: Map[str, str]) -> str:
+    said = row_words(row)
+    found = {name: math.nan if v is None else v for name, v in row["metrics"].items()}
+    numbers = ", ".join(f"{name} {with_unit(f'{v:.5g}', units.get(name, '1'))}" for name, v in found.items())
+    return f"{said + ': ' if said else ''}{row['status']}{': ' + numbers if numbers else ''}"
