@@ -17,7 +17,7 @@ _SECTIONS = frozenset(
     {"about", "gaitsim", "initial", "objective", "parameters", "simulate", "study", "use_for"}
 )
 _SEARCHED = ("measures", "parts")
-_SPEC = re.compile(r"^\ufeff?gaitsim:[ \t]+\S", re.MULTILINE)
+_SPEC = re.compile(r"^\ufeff?(gaitsim|extends|parts|measures|simulate|objective|optimize) *:(\s|$)", re.MULTILINE)
 
 
 def merged(base: Mapping, over: Mapping) -> Mapping:
@@ -160,8 +160,8 @@ def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], Mapp
     try:
         # Whoever wrote `extends:` chose the file: of one that is no spec, no word is repeated.
         if not _SPEC.search(document.text_of(path, shown)):
-            rule = f"{shown} is no spec, as no line of it says gaitsim: 1"
-            raise InvalidSpec(Fault(f"{rule}; name a spec, or write that line.", mark, "extends"))
+            rule = f"{shown} is no spec, as it has none of a spec's sections, such as parts:"
+            raise InvalidSpec(Fault(f"{rule}; name a spec.", mark, "extends"))
         return read(path, shown)
     except InvalidSpec as error:
         raise InvalidSpec(
