@@ -85,7 +85,7 @@ def drawn_data(
             for each in _summaries(outcomes)
         },
         "rows": [
-            {"draw": k, "values": drawn, **row} for k, (drawn, row) in enumerate(zip(values, each_run, strict=True), 1)
+            {"draw": k, "values": drawn, **row} for k, (drawn, row) in enumerate(zip(values, each_run, strict=False), 1)
         ],
     }
 

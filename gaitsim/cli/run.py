@@ -95,7 +95,8 @@ def run(
         keeping.close()
     except KeyboardInterrupt:
         keeping.close("interrupted")
-        _report(rows[: len(outcomes)], outcomes, models, mode, keeping.folder, json, drawn)
+        if outcomes:
+            _report(rows[: len(outcomes)], outcomes, models, mode, keeping.folder, json, drawn)
         raise
     if out is not None and outcomes[0].trajectory is not None:
         from gaitsim.results.store import save_trajectory
