@@ -32,7 +32,7 @@ def search(tmp_path_factory: pytest.TempPathFactory) -> Path:
     with pytest.MonkeyPatch.context() as patch:
         patch.chdir(folder)
         spec = str(ROOT / "specs" / "hopping_leg_mass.yaml")
-        words = [spec, "--set", "simulate.duration=2 s", "--smoke", "--workers", "0", "--seed", "3"]
+        words = [spec, "--set", "simulate.duration=0.5 s", "--smoke", "--workers", "0", "--seed", "3"]
         assert command("optimize", *words) == 0
     return next((folder / "results").iterdir())
 

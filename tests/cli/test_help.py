@@ -59,6 +59,8 @@ def test_help_comes_at_once(words: tuple[str, ...]) -> None:
         subprocess.run([sys.executable, "-m", "gaitsim.cli.main", *words, "--help"], check=True, capture_output=True)
         after = resource.getrusage(resource.RUSAGE_CHILDREN)
         least = min(least, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
+        if least < 0.3:
+            break
     assert least < 0.3
 
 

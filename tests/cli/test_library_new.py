@@ -29,6 +29,7 @@ def test_every_kind_has_a_beginning_that_passes_the_check(kind: str, capsys: pyt
     assert (checked.code, checked.err) == (0, "")
 
 
+@pytest.mark.slow
 def test_the_test_that_is_written_passes() -> None:
     for kind, name in (("muscle", "my_muscle"), ("measure", "my_measure"), ("segment", "my_segment")):
         subprocess.run([sys.executable, "-m", "gaitsim.cli.main", "library", "new", kind, name], check=True)

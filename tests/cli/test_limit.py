@@ -227,6 +227,7 @@ def test_a_variant_that_tunes_otherwise_starts_anew(
     assert "tuned" not in gaitsim(capsys, "run", "other.yaml", "--no-save").err
 
 
+@pytest.mark.slow
 def test_the_perturbed_walker_is_the_walker_until_it_is_perturbed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -252,9 +253,9 @@ def test_each_perturbation_is_one_setting(
     setting: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.chdir(tmp_path)
-    early = ["--set", "push.onset=0.1 s", "--set", "use_for.terrain.first=5 cm", "--no-save", "--json", "--start"]
-    spec = str(SPECS / "walking_geyer2010_perturbed.yaml")
+    early = ["--set", "push.onset=0.1 s", "--set", "use_for.terrain.first=5 cm", "--set", "simulate.duration=0.6 s"]
+    words = [str(SPECS / "walking_geyer2010_perturbed.yaml"), *early, "--no-save", "--json", "--start"]
     still, moved = (
-        json.loads(gaitsim(capsys, "run", spec, *early, *more).out)["metrics"] for more in ((), ("--set", setting))
+        json.loads(gaitsim(capsys, "run", *words, *more).out)["metrics"] for more in ((), ("--set", setting))
     )
     assert moved["speed.distance"] != still["speed.distance"]

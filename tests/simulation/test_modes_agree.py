@@ -9,15 +9,23 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gaitsim.model import Model
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
 
-from .models import HOPPER, OWN, SPECS, Settings, model, simulator
+from .models import HOPPER, OWN, ROOT, SPECS, Settings, model, simulator
 
 FALL = f"{-math.sqrt(2 * 9.81 * 0.163)!r} m/s"
+# In the fast set, and how long; the others differ from these in components, whose kernels tests/parts compares.
+FAST = {
+    "pendulum_pid": "1 s",
+    "hopping_geyer2003": "1 s",
+    "hopping_leg_mass": "0.5 s",
+    "walking_geyer2010": "0.2 s",
+    "walking_geyer2010_mujoco_contact": "0.1 s",
+}
 RUNS: list[tuple[Path, Settings]] = [
     *[(path, ()) for path in SPECS],
-    *[(path, ()) for path in sorted(OWN.glob("*.yaml"))],
     # The first second of the hopper is a fall and one stance; from touchdown it also takes off.
     (HOPPER, [("initial.guide.position", "0.99 m"), ("initial.guide.velocity", FALL)]),
     # Two short hops: the feedback, the hold and the take-off twice.
@@ -56,11 +64,24 @@ def length_of(path: Path) -> str:
     return "0.1 s" if "\nextends:" in path.read_text() else "1 s"
 
 
+@pytest.mark.parametrize(("name", "duration"), FAST.items(), ids=FAST)
+def test_every_signal_agrees_at_the_beginning(name: str, duration: str) -> None:
+    agree(model(ROOT / "specs" / f"{name}.yaml", [("simulate.duration", duration)]))
+
+
+@pytest.mark.parametrize("path", sorted(OWN.glob("*.yaml")), ids=lambda path: path.stem)
+def test_every_signal_of_our_own_specs_agrees(path: Path) -> None:
+    agree(model(path))
+
+
+@pytest.mark.slow
 @pytest.mark.parametrize(("path", "settings"), RUNS, ids=NAMES)
 def test_every_signal_agrees_over_the_first_second(path: Path, settings: Settings) -> None:
-    if path.parent != OWN:
-        settings = [*settings, ("simulate.duration", length_of(path))]
-    made = model(path, settings)
+    agree(model(path, [*settings, ("simulate.duration", length_of(path))]))
+
+
+def agree(made: Model) -> None:
+    """Assert that both modes give the same run."""
     rapid = Simulator(made, "rapid").run(recorded=True)
     normal = Simulator(made, "normal").run(recorded=True)
     assert rapid.trajectory is not None and normal.trajectory is not None
