@@ -54,11 +54,11 @@ def limit(
     from dataclasses import replace
 
     from gaitsim.analysis.limits import Hunt, Limit, until_of
-    from gaitsim.cli.source import open_source, started_from
+    from gaitsim.cli.source import only_row, open_source, started_from
     from gaitsim.errors import Usage
     from gaitsim.optimization.limit import Bracket
     from gaitsim.results.manifest import is_result
-    from gaitsim.spec.study import span, variants
+    from gaitsim.spec.study import span
 
     _check_numbers(points, tolerance)
     limits = [Limit(*span(text), Bracket(points, tolerance)) for text in vary]
@@ -68,13 +68,11 @@ def limit(
             raise Usage(f"--from {origin}: {spec} is a result, which has its own values; name a spec, or drop --from.")
         source, notices = started_from(replace(source, notices=()), spec, origin, trust)
         source = replace(source, notices=tuple(notices))
-    rows = variants(source.document, [])
-    if len(rows) > 1:
-        raise Usage(f"{spec} is a study of {len(rows)} runs; take one with --candidate, or drop it: --set study=null.")
-    model = source.model(rows[0].document)
+    row = only_row(source, spec)
+    model = source.model(row.document)
     for notice in dict.fromkeys([*source.notices, *model.notices]):
         console.say(notice)
-    hunt = Hunt(source, rows[0].document, rows[0].settings, limits, until_of(until, model), mode.value)
+    hunt = Hunt(source, row.document, row.settings, limits, until_of(until, model), mode.value)
     hunt.run(console.progress("runs", quiet=json))
     keeping = _kept(None if no_save else source, hunt)
     _report(hunt, keeping.folder, json)

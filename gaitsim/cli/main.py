@@ -11,7 +11,22 @@ from typing import Annotated
 import typer
 
 from gaitsim import __version__
-from gaitsim.cli import analyze, check, cite, console, library, limit, new, optimize, results, run, schema, show, view
+from gaitsim.cli import (
+    analyze,
+    check,
+    cite,
+    console,
+    library,
+    limit,
+    new,
+    optimize,
+    profile,
+    results,
+    run,
+    schema,
+    show,
+    view,
+)
 from gaitsim.cli.interrupts import heard_once
 from gaitsim.errors import ExitCode, GaitsimError, Usage
 
@@ -27,6 +42,7 @@ app.command("optimize")(optimize.optimize)
 app.command("limit")(limit.limit)
 app.command("analyze")(analyze.analyze)
 app.command("view")(view.view)
+app.command("profile")(profile.profile)
 app.command("check")(check.check)
 app.command("show")(show.show)
 app.command("cite")(cite.cite)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from gaitsim.results.source import Source
+    from gaitsim.spec.study import Variant
 
 
 def source_of_spec(spec: Path, settings: list[str] | None, folders: list[Path] | None, tuned: bool) -> Source:
@@ -72,6 +73,17 @@ def started_from(source: Source, spec: Path, origin: str | None, trusted: bool) 
     rest = [a for a in addresses if a not in values]
     notice = f"start from {where}: {', '.join(matched)}" + (f"; not found there: {', '.join(rest)}" if rest else "")
     return replace(source, starts={a: values[a] for a in matched}, origin=where), [notice]
+
+
+def only_row(source: Source, path: Path) -> Variant:
+    """The one run of a source that is no study. Errors: Usage."""
+    from gaitsim.errors import Usage
+    from gaitsim.spec.study import variants
+
+    rows = variants(source.document, [])
+    if len(rows) > 1:
+        raise Usage(f"{path} is a study of {len(rows)} runs; take one with --candidate, or drop it: --set study=null.")
+    return rows[0]
 
 
 def open_source(

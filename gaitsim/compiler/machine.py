@@ -144,13 +144,23 @@ def _known(name: str) -> bool:
     return llvm.address_of_symbol(name) is not None or hasattr(ctypes.pythonapi, name)
 
 
+def set_clock(address: int | None) -> None:
+    """What MuJoCo's own timers read: a function that returns a number, or nothing, so that they stand still."""
+    ctypes.c_void_p.in_dll(_mujoco(), "mjcb_time").value = address
+
+
+@cache
+def _mujoco() -> ctypes.CDLL:
+    return ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob("libmujoco.*"))))
+
+
 @cache
 def _provide_mujoco() -> None:
-    library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob("libmujoco.*"))))
+    library = _mujoco()
     for name in _MUJOCO:
         llvm.add_symbol(name, ctypes.cast(getattr(library, name), ctypes.c_void_p).value)
     # The Python package installs a clock that MuJoCo reads a dozen times in a step; nobody looks at its timers.
-    ctypes.c_void_p.in_dll(library, "mjcb_time").value = None
+    set_clock(None)
 
 
 @cache

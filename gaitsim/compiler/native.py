@@ -55,21 +55,31 @@ RUN = {
 }
 
 
-def compiled(plan: Plan, kernels: Mapping[str, Kernel]) -> machine.Code:
-    """The machine code of a plan, with functions `start` and `run`.
+# Of code with a stopwatch: its table of ticks, for each part and then for these (the halves are those of MuJoCo's
+# step), and the function that tells the tick.
+TICKS, CLOCK = "ticks", "clock"
+TIMED = ("first half", "second half", "reading", "steps")
+
+
+def compiled(plan: Plan, kernels: Mapping[str, Kernel], timed: bool = False) -> machine.Code:
+    """The machine code of a plan, with functions `start` and `run`; timed: with a stopwatch for each part.
 
     Errors: InvalidComponent if a kernel cannot become native code.
     """
-    key = hashlib.sha256(f"{plan}|{machine.environment()}".encode()).hexdigest()[:32]
+    kind = "timed|" if timed else ""
+    key = hashlib.sha256(f"{kind}{plan}|{machine.environment()}".encode()).hexdigest()[:32]
 
     def make() -> bytes:
+        from gaitsim.compiler.stopwatch import TimedTranslation
         from gaitsim.compiler.translation import Translation
+        from gaitsim.compiler.workshop import bitcode_of
 
-        bitcode = [kernel.bitcode() for kernel in kernels.values()]
-        module = machine.linked(str(Translation(plan).module()), bitcode)
+        bitcode = bitcode_of([*kernels.values()])
+        translation = TimedTranslation(plan) if timed else Translation(plan)
+        module = machine.linked(str(translation.module()), bitcode)
         for name in kernels:
             module.get_function(name).add_function_attribute("alwaysinline")
-        return machine.object_file(module, ["start", "run"])
+        return machine.object_file(module, ["start", "run", *([TICKS, CLOCK] if timed else [])])
 
     return machine.code("programs", key, make)
 

@@ -59,9 +59,10 @@ class _Reached:
 
 @dataclass
 class Rapid:
-    """A program in native code."""
+    """A program in native code; timed: with a stopwatch in it, see `simulation/profile.py`."""
 
     program: Program
+    timed: bool = False
     body: Body = field(init=False)
     _natives: dict[Any, _Native] = field(default_factory=dict)
     _tied: tuple[Assembly, _Native, Integers] | None = None
@@ -76,6 +77,11 @@ class Rapid:
         """
         self.body.check_initial()
         self._bound()
+
+    @property
+    def code(self) -> Code:
+        """The native code for the present mechanics."""
+        return self._bound()[0].code
 
     def run(self, values: Sequence[float], steps: int, recorded: bool) -> Ending:
         """Simulate one candidate's numbers."""
@@ -159,7 +165,7 @@ class Rapid:
         if self._tied is None or self._tied[0] is not assembly:
             shape = (assembly.reads, assembly.applies, assembly.model.nq, assembly.model.nv)
             if shape not in self._natives:
-                self._natives[shape] = _Native.of(native.compiled(*plan_of(self.program, assembly)))
+                self._natives[shape] = _Native.of(native.compiled(*plan_of(self.program, assembly), self.timed))
             self._tied = assembly, self._natives[shape], self._addresses()
         return self._tied[1:]
 

@@ -1,0 +1,55 @@
+"""A plan in LLVM's language that also counts how long each of its parts takes, in ticks of the processor's counter."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from typing import Any
+
+from llvmlite import ir
+
+from gaitsim.compiler.native import CLOCK, TICKS, TIMED
+from gaitsim.compiler.translation import Translation
+from gaitsim.compiler.writer import DOUBLE, INTEGER, Writer
+
+# On ARM only the system's counter may be read by everybody.
+_COUNTER = "llvm.readsteadycounter" if platform.machine().lower() in ("arm64", "aarch64") else "llvm.readcyclecounter"
+
+
+@dataclass
+class TimedTranslation(Translation):
+    """Adds to `ticks`: for each part, the halves of MuJoCo's step, reading the counter, and all steps.
+
+    `clock` gives the counter to MuJoCo, as the time of its own timers.
+    """
+
+    def module(self) -> Any:
+        """The whole module, with the table of ticks and the clock."""
+        kind = ir.ArrayType(INTEGER, len(self.plan.pieces) + len(TIMED))
+        ticks = ir.GlobalVariable(self.text, kind, TICKS)
+        ticks.initializer = ir.Constant(kind, None)
+        self.names[TICKS] = ticks
+        self.names[_COUNTER] = ir.Function(self.text, ir.FunctionType(INTEGER, []), _COUNTER)
+        clock = self._function(CLOCK, DOUBLE, {}, exported=True)
+        clock.builder.ret(clock.builder.uitofp(self._now(clock), DOUBLE))
+        return super().module()
+
+    def _one_step(self, f: Writer) -> None:
+        with self._timed(f, "steps"):
+            with self._timed(f, "reading"):
+                pass
+            super()._one_step(f)
+
+    @contextmanager
+    def _timed(self, f: Writer, what: int | str) -> Iterator[None]:
+        before = self._now(f)
+        yield
+        slot = what if isinstance(what, int) else len(self.plan.pieces) + TIMED.index(what)
+        taken = f.builder.sub(self._now(f), before)
+        place = f.builder.gep(self.names[TICKS], [INTEGER(0), INTEGER(slot)], inbounds=True)
+        f.builder.store(f.builder.add(f.builder.load(place), taken), place)
+
+    def _now(self, f: Writer) -> Any:
+        return f.builder.call(self.names[_COUNTER], [])
