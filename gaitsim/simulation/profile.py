@@ -127,7 +127,7 @@ class _Watch:
         """What each part of a step took, less what reading the stopwatch takes."""
         parts, others = np.split(self.ticks * (tick / self.steps), [len(self.calls)])
         first, second, reading, whole = others
-        corrected = parts - reading * np.array(self.calls)
+        corrected = np.maximum(parts - reading * np.array(self.calls), 0)
         found = [
             Cost(part.address, part.type.reference, calls, float(seconds))
             for part, calls, seconds in zip(self.model.parts, self.calls, corrected, strict=True)
