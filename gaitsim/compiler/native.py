@@ -1,13 +1,6 @@
-"""Native code of a plan: what its functions are given and return, and how it comes from the cache."""
+"""Native code of a plan: what its functions are given and return."""
 
 from __future__ import annotations
-
-import hashlib
-from collections.abc import Mapping
-
-from gaitsim.compiler import machine
-from gaitsim.compiler.kernel import Kernel
-from gaitsim.compiler.plan import Plan
 
 # What `run` returns: all steps are done, something is not finite or raised, the mechanics diverged,
 # or a part has stopped the run (STOPPED + which of the plan's stops).
@@ -59,29 +52,6 @@ RUN = {
 # step), and the function that tells the tick.
 TICKS, CLOCK = "ticks", "clock"
 TIMED = ("first half", "second half", "reading", "steps")
-
-
-def compiled(plan: Plan, kernels: Mapping[str, Kernel], timed: bool = False) -> machine.Code:
-    """The machine code of a plan, with functions `start` and `run`; timed: with a stopwatch for each part.
-
-    Errors: InvalidComponent if a kernel cannot become native code.
-    """
-    kind = "timed|" if timed else ""
-    key = hashlib.sha256(f"{kind}{plan}|{machine.environment()}".encode()).hexdigest()[:32]
-
-    def make() -> bytes:
-        from gaitsim.compiler.stopwatch import TimedTranslation
-        from gaitsim.compiler.translation import Translation
-        from gaitsim.compiler.workshop import bitcode_of
-
-        bitcode = bitcode_of([*kernels.values()])
-        translation = TimedTranslation(plan) if timed else Translation(plan)
-        module = machine.linked(str(translation.module()), bitcode)
-        for name in kernels:
-            module.get_function(name).add_function_attribute("alwaysinline")
-        return machine.object_file(module, ["start", "run", *([TICKS, CLOCK] if timed else [])])
-
-    return machine.code("programs", key, make)
 
 
 def padded(size: int) -> int:

@@ -1,4 +1,4 @@
-"""Compiles the kernels of a model on all cores.
+"""Makes the native code of a plan, and its kernels on all cores, or takes them from the cache.
 
 Helpers are processes of their own: numba compiles one thing at a time, and a script of a user's need not be
 importable, as it would have to be for `multiprocessing`. The cache is all that they share: each begins at
@@ -7,18 +7,45 @@ another place of the same list, and goes round past what is there by then.
 
 from __future__ import annotations
 
+import contextlib
+import hashlib
 import json
 import os
 import subprocess
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from gaitsim.cache import kept
+from gaitsim.compiler import machine
 from gaitsim.compiler.kernel import Kernel, kernel_of
+from gaitsim.compiler.native import CLOCK, TICKS
+from gaitsim.compiler.plan import Plan
 
 # Below so many, a helper would be done importing numba after all is compiled.
 _WORTH_A_HELPER = 4
+
+
+def compiled(plan: Plan, kernels: Mapping[str, Kernel], timed: bool = False) -> machine.Code:
+    """The machine code of a plan, with functions `start` and `run`; timed: with a stopwatch for each part.
+
+    Errors: InvalidComponent if a kernel cannot become native code.
+    """
+    kind = "timed|" if timed else ""
+    key = hashlib.sha256(f"{kind}{plan}|{machine.environment()}".encode()).hexdigest()[:32]
+
+    def make() -> bytes:
+        from gaitsim.compiler.stopwatch import TimedTranslation
+        from gaitsim.compiler.translation import Translation
+
+        bitcode = bitcode_of([*kernels.values()])
+        translation = TimedTranslation(plan) if timed else Translation(plan)
+        module = machine.linked(str(translation.module()), bitcode)
+        for name in kernels:
+            module.get_function(name).add_function_attribute("alwaysinline")
+        return machine.object_file(module, ["start", "run", *([TICKS, CLOCK] if timed else [])])
+
+    return machine.code("programs", key, make)
 
 
 def bitcode_of(kernels: Sequence[Kernel]) -> list[bytes]:
@@ -38,9 +65,13 @@ def bitcode_of(kernels: Sequence[Kernel]) -> list[bytes]:
 
 
 def _helpers(missing: Sequence[Kernel]) -> list[subprocess.Popen[bytes]]:
-    """A process for each further core that has enough to do."""
+    """A process for each further core that has enough to do; none where no process can be started."""
     count = min(_cores(), len(missing) // _WORTH_A_HELPER + 1)
-    return [_helper([*missing[begin:], *missing[:begin]]) for begin in _places(len(missing), count)]
+    started: list[subprocess.Popen[bytes]] = []
+    with contextlib.suppress(OSError):
+        for begin in _places(len(missing), count):
+            started.append(_helper([*missing[begin:], *missing[:begin]]))
+    return started
 
 
 def _places(length: int, count: int) -> list[int]:
@@ -53,14 +84,16 @@ def _cores() -> int:
 
 
 def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
+    """A process that compiles kernels. Errors: OSError."""
     components = [kernel.component for kernel in kernels]
     files = [[found.reference, str(found.path), found.shown, found.source] for found in components]
     command = [sys.executable, "-m", "gaitsim.compiler.workshop"]
     quiet = subprocess.DEVNULL  # a mistake is told by the process that needs the kernel
-    process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet)
+    bare = os.environ | {"MUJOCO_GL": "off"}
+    process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet, env=bare)
     assert process.stdin is not None
-    process.stdin.write(json.dumps(files).encode())
-    process.stdin.close()
+    with contextlib.suppress(BrokenPipeError), process.stdin:
+        process.stdin.write(json.dumps(files).encode())
     return process
 
 

@@ -14,6 +14,7 @@ from gaitsim.compiler.machine import Code
 from gaitsim.compiler.mjcf import Assembly, tie_place
 from gaitsim.compiler.plan import plan_of
 from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
+from gaitsim.compiler.workshop import compiled
 from gaitsim.simulation.body import Body
 from gaitsim.simulation.ending import Ending
 from gaitsim.simulation.failure import of_nothing_found
@@ -165,7 +166,7 @@ class Rapid:
         if self._tied is None or self._tied[0] is not assembly:
             shape = (assembly.reads, assembly.applies, assembly.model.nq, assembly.model.nv)
             if shape not in self._natives:
-                self._natives[shape] = _Native.of(native.compiled(*plan_of(self.program, assembly), self.timed))
+                self._natives[shape] = _Native.of(compiled(*plan_of(self.program, assembly), self.timed))
             self._tied = assembly, self._natives[shape], self._addresses()
         return self._tied[1:]
 

@@ -73,6 +73,15 @@ def test_what_cannot_become_native_code_is_told_here(
     assert capfd.readouterr().err == ""
 
 
+def test_without_helpers_all_is_compiled_here(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("GAITSIM_CACHE", str(tmp_path))
+    monkeypatch.setattr(workshop, "_WORTH_A_HELPER", 1)
+    monkeypatch.setattr(workshop, "_cores", lambda: 2)
+    monkeypatch.setattr(workshop.sys, "executable", str(tmp_path / "gone"))
+    kernels = [kernel_of(each) for each in primitives()[:2]]
+    assert all(map(has, workshop.bitcode_of(kernels), kernels))
+
+
 def test_places_are_apart() -> None:
     assert workshop._places(10, 1) == []
     assert workshop._places(10, 2) == [5]
