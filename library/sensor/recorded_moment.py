@@ -13,6 +13,7 @@ class RecordedMoment(Component):
 
     moment = Output("N m", "The recorded moment.")
     lacking = Output("N m", "What the muscles lack of it.")
+    muscle_moment_per_mass = Output("N m/kg", "Moment of the muscles over body mass.")
 
     @staticmethod
     def output(p, u, x, y):
@@ -21,3 +22,4 @@ class RecordedMoment(Component):
         i = int(left)
         y.moment = p.mass * (p.curve[i] + (place - left) * (p.curve[i + 1] - p.curve[i]))
         y.lacking = y.moment - u.muscle_moment
+        y.muscle_moment_per_mass = u.muscle_moment / p.mass

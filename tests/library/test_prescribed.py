@@ -80,6 +80,7 @@ def test_what_muscles_lack_of_a_recorded_moment(mode: Mode) -> None:
     given = {"curve": np.linspace(0, 1, 101), "mass": 80.0, "muscle_moment": 10.0}
     found = computed("sensor/recorded_moment", mode, **given, phase=0.255)
     assert (found.moment, found.lacking) == (pytest.approx(0.255 * 80), pytest.approx(0.255 * 80 - 10))
+    assert found.muscle_moment_per_mass == pytest.approx(0.125)
 
 
 def test_mean_squares() -> None:
