@@ -16,7 +16,7 @@ import pytest
 
 from .searches import Ended, Study
 
-GENERATIONS = ("--generations", "8", "--set", "simulate.duration=8s")
+GENERATIONS = ("--generations", "8", "--set", "simulate.duration=8s", "--set", "simulate.step=0.2ms")
 
 
 @pytest.fixture(scope="module")
