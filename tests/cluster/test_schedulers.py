@@ -17,7 +17,7 @@ import gaitsim
 
 from .servers import Servers
 
-WORDS = ("--generations", "4", "--set", "simulate.duration=20s", "--set", "simulate.step=0.2ms")
+WORDS = ("--generations", "4", "--set", "simulate.duration=20s", "--set", "simulate.step=0.05ms")
 
 
 @pytest.fixture

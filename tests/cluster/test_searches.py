@@ -11,7 +11,7 @@ from optimization.searches import Study
 
 from .servers import Servers, children
 
-WORDS = ("--generations", "4", "--set", "simulate.duration=20s", "--set", "simulate.step=0.2ms")
+WORDS = ("--generations", "4", "--set", "simulate.duration=20s", "--set", "simulate.step=0.05ms")
 
 
 @pytest.fixture(scope="module")
