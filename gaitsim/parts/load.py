@@ -12,7 +12,6 @@ from typing import Any
 
 from gaitsim.component import Component, Input, Link, Output, Parameter, Part
 from gaitsim.errors import Fault, InvalidComponent, Mark, did_you_mean
-from gaitsim.parts.audit import audit
 from gaitsim.parts.audited import remember, sound_dependencies
 from gaitsim.parts.check import check_names, declaration_marks, parse
 from gaitsim.parts.dependency import output_dependencies
@@ -55,6 +54,8 @@ def load_primitive(reference: str, path: Path, shown: str, text: str) -> Primiti
 
 def _faults(source: str, tree: ast.Module, cls: type[Component], shown: str) -> Sequence[Fault]:
     """What is wrong in a file that Python could run: the first kind of mistakes that there is."""
+    from gaitsim.parts.audit import audit
+
     lines = source.splitlines()
     return (
         check_names(tree, cls.declarations, shown, lines)

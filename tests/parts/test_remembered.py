@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.parts import audited, load
+from gaitsim.parts import audit, audited, load
 from gaitsim.parts.find import shipped_folder
 from gaitsim.parts.primitive import Primitive
 
@@ -26,13 +26,13 @@ def cache(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
 @pytest.fixture
 def audits(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     done: list[str] = []
-    real = load.audit
+    real = audit.audit
 
     def counted(source: str, file: str) -> object:
         done.append(file)
         return real(source, file)
 
-    monkeypatch.setattr(load, "audit", counted)
+    monkeypatch.setattr(audit, "audit", counted)
     return done
 
 
