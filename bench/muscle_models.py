@@ -25,10 +25,10 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from gaitsim.cli.source import open_source
 from gaitsim.parts.find import Library, shipped_folder
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
+from gaitsim.study.opening import open_source
 
 SPEC = Path(__file__).resolve().parents[1] / "specs" / "hopping_leg_mass.yaml"
 REPEATS = 5

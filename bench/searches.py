@@ -11,12 +11,12 @@ from pathlib import Path
 import psutil
 from rows import Report, Section
 
-from gaitsim.cli.source import source_of_spec
 from gaitsim.cluster.evaluate import Serial, bench_of
 from gaitsim.cluster.local import Local
 from gaitsim.optimization.evaluation import Candidate
 from gaitsim.optimization.search import Evaluator
 from gaitsim.results.bundle import Bundle
+from gaitsim.study.opening import source_of_spec
 
 SPEC = Path(__file__).resolve().parents[1] / "specs" / "pendulum_pid.yaml"
 WORKERS = 2

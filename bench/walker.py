@@ -28,8 +28,8 @@ from typing import Any
 from rich.console import Console
 from rich.table import Table
 
-from gaitsim.cli.source import open_source, source_of_spec
 from gaitsim.simulation.run import Simulator
+from gaitsim.study.opening import open_source, source_of_spec
 
 SPEC = Path(__file__).resolve().parents[1] / "specs" / "walking_geyer2010.yaml"
 CONTACTS = ("hunt_crossley", "geyer2010", "yielding_sole", "mujoco")

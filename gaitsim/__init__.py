@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from gaitsim.analysis.result import Result
+    from gaitsim.study.result import Result
 
 __version__ = "0.1.0"
 __all__ = ["__version__", "load"]
@@ -22,6 +22,6 @@ def load(folder: str | Path, candidate: str = "best", trust: bool = False) -> Re
     candidate: best, a rank, or GENERATION:INDEX of a search; of a study best, or the number of a run.
     trust: run components that this machine does not know. Errors: gaitsim.errors.GaitsimError.
     """
-    from gaitsim.analysis.result import load
+    from gaitsim.study.result import load
 
     return load(folder, candidate, trust)

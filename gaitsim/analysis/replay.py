@@ -12,11 +12,11 @@ from numpy.typing import NDArray
 
 from gaitsim.model import Model
 from gaitsim.results.manifest import changed_versions
-from gaitsim.results.source import Source
 from gaitsim.results.store import row_data
-from gaitsim.results.verify import differences
 from gaitsim.simulation.outcome import Outcome, Trajectory
 from gaitsim.simulation.run import Mode, Simulator
+from gaitsim.study.source import Source
+from gaitsim.study.verify import differences
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,8 @@ if TYPE_CHECKING:
     from gaitsim.analysis.drawing import Drawing
     from gaitsim.analysis.replay import Replay
     from gaitsim.animation.video import VideoOptions
-    from gaitsim.cli.products import Products
-    from gaitsim.results.source import Source
+    from gaitsim.study.products import Products
+    from gaitsim.study.source import Source
 
 
 class Export(StrEnum):
@@ -102,7 +102,7 @@ def analyze(
     gaitsim analyze results/2026-11-22-hopping-3f9c --only --export sto --return-map guide.position
     """
     from gaitsim.analysis.figures import missing
-    from gaitsim.cli.products import Products, default_figures
+    from gaitsim.study.products import Products, default_figures
 
     if against is not None and not plot:
         raise Usage(f"--against {against}: name what is drawn against it, such as --plot '*.force'.")
@@ -141,8 +141,8 @@ def _opened(
 
     Errors: GaitsimError if nothing can be.
     """
-    from gaitsim.cli.source import open_source
     from gaitsim.results.manifest import is_result
+    from gaitsim.study.opening import open_source
 
     found: list[tuple[Path, str, Source]] = []
     for path in paths:

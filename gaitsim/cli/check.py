@@ -9,7 +9,7 @@ import typer
 
 from gaitsim.cli import console
 from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust
-from gaitsim.cli.source import open_source
+from gaitsim.study.opening import open_source
 
 if TYPE_CHECKING:
     from gaitsim.errors import Fault
@@ -42,11 +42,11 @@ def check(
     """
     from gaitsim.analysis.moment_arms import draw, table, warnings
     from gaitsim.cli.convergence import convergence_of, data, give
-    from gaitsim.cli.starts import Starts
-    from gaitsim.results.episodes import episode_models
+    from gaitsim.cluster.episodes import episode_models
     from gaitsim.simulation.moment_arms import moment_arms
     from gaitsim.simulation.run import Simulator
     from gaitsim.spec.study import variants
+    from gaitsim.study.starts import Starts
 
     # What is simulated is what `run` would simulate.
     source = open_source(spec, settings, library, tuned=convergence, trusted=trust)

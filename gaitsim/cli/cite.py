@@ -6,10 +6,10 @@ from typing import TYPE_CHECKING
 
 from gaitsim.cli import console
 from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust
-from gaitsim.cli.source import open_source
+from gaitsim.study.opening import open_source
 
 if TYPE_CHECKING:
-    from gaitsim.results.source import Source
+    from gaitsim.study.source import Source
 
 
 def cite(spec: Spec, settings: Set = None, trust: Trust = False, library: Libraries = None, json: Json = False) -> None:

@@ -144,8 +144,8 @@ def new_component_file(
 
     gaitsim library new muscle my_muscle --like muscle/geyer2010
     """
-    from gaitsim.cli.written import write_new
     from gaitsim.parts.skeleton import new_component, test_of
+    from gaitsim.study.new_files import write_new
 
     parts = open_library(folder / "spec.yaml", library)
     file, text = new_component(kind, name, parts, like)

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.keeping import Keeping
 from gaitsim.cli.options import Json, Libraries, ModeName, Set, Spec, Trust
 from gaitsim.errors import command
+from gaitsim.study.keeping import Keeping
 
 if TYPE_CHECKING:
-    from gaitsim.analysis.limits import Hunt, Limit
-    from gaitsim.results.source import Source
+    from gaitsim.study.limits import Hunt, Limit
+    from gaitsim.study.source import Source
 
 _FINEST = 1e-6
 
@@ -53,12 +53,12 @@ def limit(
     """
     from dataclasses import replace
 
-    from gaitsim.analysis.limits import Hunt, Limit, until_of
-    from gaitsim.cli.source import only_row, open_source, started_from
     from gaitsim.errors import Usage
     from gaitsim.optimization.limit import Bracket
     from gaitsim.results.manifest import is_result
     from gaitsim.spec.study import span
+    from gaitsim.study.limits import Hunt, Limit, until_of
+    from gaitsim.study.opening import only_row, open_source, started_from
 
     _check_numbers(points, tolerance)
     limits = [Limit(*span(text), Bracket(points, tolerance)) for text in vary]

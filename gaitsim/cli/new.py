@@ -34,9 +34,9 @@ def new(
 
     gaitsim new reflexes --from hopping_geyer2003
     """
-    from gaitsim.cli.beginners import study
-    from gaitsim.cli.written import write_new
     from gaitsim.errors import Usage
+    from gaitsim.study.new_files import write_new
+    from gaitsim.study.template import study
 
     if folder.exists():
         raise Usage(f"{folder} is there already; gaitsim new makes a folder of its own, so choose another name.")

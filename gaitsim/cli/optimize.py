@@ -14,11 +14,11 @@ from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, T
 from gaitsim.errors import command
 
 if TYPE_CHECKING:
-    from gaitsim.cli.adoption import Adoption
-    from gaitsim.cli.tuning import Tuning
-    from gaitsim.cli.workplace import Workplace
     from gaitsim.optimization.evaluation import Evaluation
     from gaitsim.optimization.search import Progress
+    from gaitsim.study.adoption import Adoption
+    from gaitsim.study.tuning import Tuning
+    from gaitsim.study.workplace import Workplace
 
 _INTERRUPTED = 130
 
@@ -58,11 +58,11 @@ def optimize(
 
     gaitsim optimize specs/hopping_geyer2003.yaml --resume
     """
-    from gaitsim.cli.adoption import adopt as adopted
-    from gaitsim.cli.beginning import Request, begun, resumed
-    from gaitsim.cli.workplace import Workplace
     from gaitsim.errors import ExitCode, Usage
     from gaitsim.results.manifest import is_result
+    from gaitsim.study.adoption import adopt as adopted
+    from gaitsim.study.searches import Request, begun, resumed
+    from gaitsim.study.workplace import Workplace
 
     if force and not adopt:
         raise Usage("--force is of --adopt: it replaces better values; add --adopt, or leave it out.")

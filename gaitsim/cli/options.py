@@ -91,9 +91,9 @@ def open_library(spec: Path | None, folders: list[Path] | None) -> Library:
 
 def read_document(spec: Path, settings: list[str] | None) -> Mapping:
     """The spec with its settings."""
-    from gaitsim.cli.foreign import refuse_foreign
     from gaitsim.spec.inheritance import split_setting
     from gaitsim.spec.resolve import read_spec
+    from gaitsim.study.foreign import refuse_foreign
 
     refuse_foreign(spec)
     return read_spec(spec, [split_setting(text) for text in settings or []])

@@ -76,7 +76,7 @@ def verify(
     from gaitsim.optimization.journal import old_form_notices
     from gaitsim.results.manifest import changed_versions, read_result
     from gaitsim.results.trust import check_trust
-    from gaitsim.results.verify import verified
+    from gaitsim.study.verify import verified
 
     manifest, bundle = read_result(folder)
     check_trust(bundle, trust)

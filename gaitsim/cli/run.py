@@ -9,17 +9,17 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.keeping import Keeping
 from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust, seconds_of
-from gaitsim.cli.source import open_source
 from gaitsim.errors import SimulationFailed, command
+from gaitsim.study.keeping import Keeping
+from gaitsim.study.opening import open_source
 
 if TYPE_CHECKING:
-    from gaitsim.cli.starts import Starts
     from gaitsim.model import Model
     from gaitsim.optimization.draws import Draws
     from gaitsim.simulation.outcome import Outcome
     from gaitsim.spec.study import Variant
+    from gaitsim.study.starts import Starts
 
 _FAILED = 4
 
@@ -69,9 +69,9 @@ def run(
     gaitsim run results/2026-11-22-hopping-3f9c --candidate 2
     """
     from gaitsim.cli.draws import drawn_models, draws_asked
-    from gaitsim.cli.starts import Starts
     from gaitsim.errors import Usage
     from gaitsim.spec.study import variants
+    from gaitsim.study.starts import Starts
 
     drawn = draws_asked(draws, within, seed, vary or [], out)
     source = open_source(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)

@@ -9,7 +9,7 @@ import typer
 
 from gaitsim.cli import console
 from gaitsim.cli.options import Libraries, Set, Trust
-from gaitsim.cli.source import open_source
+from gaitsim.study.opening import open_source
 
 
 def view(

@@ -8,10 +8,10 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from gaitsim.cluster.episodes import Episodes, bundle_episodes
 from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
 from gaitsim.parts.find import shown
 from gaitsim.results.bundle import Bundle
-from gaitsim.results.episodes import Episodes, bundle_episodes
 from gaitsim.simulation.run import Mode
 
 

@@ -9,7 +9,7 @@ import pytest
 
 from gaitsim.analysis.replay import Replay, replay_of, replayed
 from gaitsim.cli.main import main
-from gaitsim.results.source import source_of_result
+from gaitsim.study.source import source_of_result
 from tests.simulation.models import ROOT, model, written
 
 Settings = Iterable[tuple[str, str]]

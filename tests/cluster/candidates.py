@@ -8,11 +8,11 @@ from pathlib import Path
 import psutil
 from optimization.searches import Study
 
-from gaitsim.cli.source import source_of_spec
 from gaitsim.cluster.evaluate import Serial, bench_of
 from gaitsim.optimization.evaluation import Candidate, Evaluation
 from gaitsim.optimization.search import Evaluator
 from gaitsim.results.bundle import Bundle
+from gaitsim.study.opening import source_of_spec
 
 LEVELS = (0.1, 0.3, 0.9, 0.2, 0.5, 0.65, 0.4, 0.0)
 CANDIDATES = [Candidate(1, i, (60.0, 12.0, level)) for i, level in enumerate(LEVELS)]

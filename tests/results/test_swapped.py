@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.cli.source import source_of_spec
+from gaitsim.study.opening import source_of_spec
 from gaitsim.results.bundle import read_bundle
 from gaitsim.simulation.run import Simulator
 

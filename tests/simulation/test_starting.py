@@ -7,10 +7,10 @@ from pathlib import Path
 import pytest
 
 from gaitsim.cli.main import main
-from gaitsim.cli.source import source_of_spec
 from gaitsim.simulation.run import Simulator
 from gaitsim.simulation.starting import Doubts, start_doubts
 from gaitsim.spec.study import variants
+from gaitsim.study.opening import source_of_spec
 from simulation.models import ROOT, SPECS, model, written
 
 MOVE = "change initial:, or the numbers of this part."

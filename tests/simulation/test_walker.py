@@ -8,11 +8,11 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.cli.source import source_of_spec
 from gaitsim.optimization.draws import Draws
 from gaitsim.results.tuned import problem_of, read_tuned, tuned_path
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
+from gaitsim.study.opening import source_of_spec
 
 from .models import ROOT
 

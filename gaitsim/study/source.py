@@ -8,10 +8,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from gaitsim.cluster.episodes import first_episode
 from gaitsim.model import Model
 from gaitsim.parts.find import Library
 from gaitsim.results.bundle import Bundle, bundled
-from gaitsim.results.episodes import first_episode
 from gaitsim.results.manifest import read_result
 from gaitsim.results.pick import pick
 from gaitsim.results.rows import pick_row, read_rows, row_starts, row_words

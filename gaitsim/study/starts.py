@@ -8,8 +8,8 @@ from gaitsim.errors import InvalidSpec
 
 if TYPE_CHECKING:
     from gaitsim.errors import Fault
-    from gaitsim.results.source import Source
     from gaitsim.simulation.run import Simulator
+    from gaitsim.study.source import Source
 
 
 class Starts:

@@ -8,14 +8,11 @@ from pathlib import Path
 from shlex import quote
 from typing import Any
 
-from gaitsim.cli.source import source_of_spec, started_from
-from gaitsim.cli.starts import Starts
-from gaitsim.cli.tuning import Tuning
+from gaitsim.cluster.episodes import episode_models
 from gaitsim.errors import Fault, InvalidSpec, Mark, Usage, command, did_you_mean
 from gaitsim.optimization.algorithms import ALGORITHMS
 from gaitsim.optimization.journal import old_form_notices, read
 from gaitsim.results.bundle import SPEC, START, Bundle
-from gaitsim.results.episodes import episode_models
 from gaitsim.results.manifest import (
     BadResult,
     changed_versions,
@@ -24,12 +21,15 @@ from gaitsim.results.manifest import (
     read_result,
     recorded_manifest,
 )
-from gaitsim.results.source import Source
 from gaitsim.results.store import create_result
 from gaitsim.results.trust import check_trust
 from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.schema import SearchSection, optimize_section
+from gaitsim.study.opening import source_of_spec, started_from
+from gaitsim.study.source import Source
+from gaitsim.study.starts import Starts
+from gaitsim.study.tuning import Tuning
 
 _SMOKE = {"population": 4, "generations": 2}
 _MOVE = "make room or rights there"

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from gaitsim.model import Model
     from gaitsim.optimization.draws import Draws
     from gaitsim.results.record import Record
-    from gaitsim.results.source import Source
     from gaitsim.simulation.outcome import Outcome
+    from gaitsim.study.source import Source
 
 
 class Keeping:

@@ -13,7 +13,7 @@ from gaitsim.analysis.replay import Replay, replay_of
 from gaitsim.exchange.labelled import labelled
 from gaitsim.model import Model, recorded_signals
 from gaitsim.results.manifest import BadResult, read_manifest
-from gaitsim.results.source import Source, source_of_result
+from gaitsim.study.source import Source, source_of_result
 
 if TYPE_CHECKING:
     import pandas

@@ -7,8 +7,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from gaitsim.results.source import Source
     from gaitsim.spec.study import Variant
+    from gaitsim.study.source import Source
 
 
 def source_of_spec(spec: Path, settings: list[str] | None, folders: list[Path] | None, tuned: bool) -> Source:
@@ -18,9 +18,9 @@ def source_of_spec(spec: Path, settings: list[str] | None, folders: list[Path] |
     or fewer, from the same starts within the same bounds.
     """
     from gaitsim.cli.options import open_library, read_document
-    from gaitsim.results.source import Source
     from gaitsim.results.tuned import read_tuned, tuned_path
     from gaitsim.spec.inheritance import parents
+    from gaitsim.study.source import Source
 
     source = Source(read_document(spec, settings), open_library(spec, folders), spec.stem, {})
     owner = next((path for path in (spec, *parents(spec)) if tuned_path(path).is_file()), None) if tuned else None
@@ -100,7 +100,7 @@ def open_source(
     """
     from gaitsim.errors import Usage
     from gaitsim.results.manifest import is_result
-    from gaitsim.results.source import source_of_result
+    from gaitsim.study.source import source_of_result
 
     if is_result(path):
         return source_of_result(path, settings or [], trusted, candidate)

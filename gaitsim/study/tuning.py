@@ -9,7 +9,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from gaitsim.cli.workplace import Workplace
 from gaitsim.cluster.timings import Timings
 from gaitsim.errors import SimulationFailed, command
 from gaitsim.model import Model
@@ -25,6 +24,7 @@ from gaitsim.results.manifest import FORMAT, write_manifest
 from gaitsim.results.store import CannotSave, finish
 from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.run import Mode
+from gaitsim.study.workplace import Workplace
 
 
 @dataclass

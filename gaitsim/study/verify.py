@@ -7,10 +7,10 @@ from collections.abc import Mapping as Map
 from dataclasses import dataclass
 from typing import Any
 
+from gaitsim.cluster.episodes import bundle_episodes
 from gaitsim.optimization.evaluation import Evaluation
 from gaitsim.optimization.journal import evaluations_in
 from gaitsim.results.bundle import BadResult, Bundle
-from gaitsim.results.episodes import bundle_episodes
 from gaitsim.results.rows import COMPARED, read_rows, row_starts
 from gaitsim.results.store import row_data
 from gaitsim.simulation.run import Mode, Simulator

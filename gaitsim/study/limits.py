@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from gaitsim.errors import Fault, Mark, SimulationFailed, Usage, did_you_mean
 from gaitsim.model import Model
 from gaitsim.optimization.limit import Bracket
-from gaitsim.results.source import Source
 from gaitsim.simulation.batch import run_all
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode
@@ -17,6 +16,7 @@ from gaitsim.spec.document import Mapping as Document
 from gaitsim.spec.inheritance import override, split_setting
 from gaitsim.spec.quantity import BadQuantity, quantity_of
 from gaitsim.spec.study import Span
+from gaitsim.study.source import Source
 from gaitsim.units import parse_unit, with_unit
 
 

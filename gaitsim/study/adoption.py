@@ -7,16 +7,16 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gaitsim.cluster.episodes import bundle_episodes
 from gaitsim.errors import InvalidSpec
-from gaitsim.results.episodes import bundle_episodes
 from gaitsim.results.store import CannotSave
 from gaitsim.results.tuned import read_tuned, tuned_path, write_tuned
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from gaitsim.cli.tuning import Tuning
     from gaitsim.optimization.search import Progress
+    from gaitsim.study.tuning import Tuning
 
 
 @dataclass(frozen=True)
