@@ -5,18 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from gaitsim.model import Model
-from gaitsim.results.manifest import changed_versions
-from gaitsim.results.store import row_data
+from gaitsim.model import Model, recorded_signals
 from gaitsim.simulation.outcome import Outcome, Trajectory
 from gaitsim.simulation.run import Mode, Simulator
-from gaitsim.study.source import Source
-from gaitsim.study.verify import differences
+
+if TYPE_CHECKING:
+    import xarray
 
 
 @dataclass(frozen=True)
@@ -109,22 +108,19 @@ def replayed(
     return Replay(label or model.name, path, model, outcome, manifest or {}, tuple(notices))
 
 
-def replay_of(source: Source, path: Path, label: str = "", duration: float | None = None) -> Replay:
-    """Run a source, and note what its reader should know: other versions, a search that has not ended.
+def dataset(replay: Replay) -> xarray.Dataset:
+    """The signals of a run as labelled arrays, with where they come from."""
+    from gaitsim.exchange.labelled import labelled
 
-    Errors: InvalidSpec, InvalidComponent.
-    """
-    model = source.model()
-    manifest = dict(source.manifest)
-    made = replayed(model, path, label or (path.name if manifest else path.stem), manifest, duration=duration)
-    notices = [*source.notices, *model.notices]
-    changed = changed_versions(manifest) if manifest else []
-    if changed:
-        notices.append(f"{path} was made with other versions ({', '.join(changed)})")
-    if manifest and manifest["status"] != "complete":
-        notices.append(f"{path} is not complete: its search is {manifest['status']}")
-    if source.recorded and duration is None:
-        found = differences(source.recorded, row_data({}, made.outcome))
-        if found:
-            notices.append(f"the replay of {path} differs from its record: {'; '.join(found[:3])}")
-    return replace(made, notices=tuple(notices))
+    trajectory = replay.trajectory
+    signals = recorded_signals(replay.model) if trajectory.signals else ()
+    about = {
+        "title": replay.name,
+        "source": str(replay.path),
+        "gaitsim": str(replay.manifest.get("gaitsim", "")),
+        "status": replay.outcome.status,
+        "reason": replay.outcome.reason,
+        "notices": "\n".join(replay.notices),
+        "parameters": ", ".join(f"{free.address} = {free.unit.exactly(free.start)}" for free in replay.model.free),
+    }
+    return labelled(trajectory, signals, about)

@@ -166,7 +166,7 @@ def _replayed(
     sources: list[tuple[Path, str, Source]], window: tuple[float | None, float | None], products: Products
 ) -> list[Replay]:
     """The runs, as far as they are looked at. Errors: GaitsimError if none has an instant."""
-    from gaitsim.analysis.replay import replay_of
+    from gaitsim.study.replays import replay_of
 
     found: list[Replay] = []
     for path, label, source in sources:

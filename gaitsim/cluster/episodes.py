@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping as Map
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 from gaitsim.errors import Faults
 from gaitsim.model import Free, Model
@@ -94,17 +92,3 @@ def _change(before: Sequence[Free], after: Sequence[Free]) -> str:
         return f"adds {', '.join(more)} to what is tuned"
     moved = [address for address in old if old[address] != new[address]]
     return f"moves the bounds or the start of {', '.join(moved)}" if moved or [*old] != [*new] else ""
-
-
-def first_episode(document: Mapping, verdict: Map[str, Any]) -> tuple[Mapping, dict[str, Any], str]:
-    """The spec of a search's first episode, what it says of that one, and words that tell of the others."""
-    rows, found = episodes(document), verdict["episodes"]
-    if not rows[0].settings:
-        return document, dict(verdict), ""
-    told = f", episode 1 of {len(rows)}: {', '.join(f'{a} = {v}' for a, v in rows[0].settings.items())}"
-    if not found:
-        return rows[0].document, dict(verdict), told
-    scores = ", ".join("failed" if one["score"] is None else f"{one['score']:.5g}" for one in found)
-    how = optimize_section(document).combine
-    told += f" (the episodes' scores are {scores}; the candidate's is their {how}); for another one, --set its values"
-    return rows[0].document, dict(verdict) | found[0], told

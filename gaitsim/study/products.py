@@ -160,8 +160,8 @@ def _write(replay: Replay, path: Path, every: float | None) -> Path:
 
         write_csv(path, replay.trajectory)
     else:
+        from gaitsim.analysis.replay import dataset
         from gaitsim.exchange.labelled import write_netcdf
-        from gaitsim.study.result import dataset
 
         write_netcdf(path, dataset(replay))
     return path

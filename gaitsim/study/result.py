@@ -9,10 +9,10 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gaitsim.analysis.replay import Replay, replay_of
-from gaitsim.exchange.labelled import labelled
-from gaitsim.model import Model, recorded_signals
+from gaitsim.analysis.replay import Replay, dataset
+from gaitsim.model import Model
 from gaitsim.results.manifest import BadResult, read_manifest
+from gaitsim.study.replays import replay_of
 from gaitsim.study.source import Source, source_of_result
 
 if TYPE_CHECKING:
@@ -113,22 +113,6 @@ class Result:
 def _number(text: str) -> float | int:
     """A cell of a table; nan if it is empty. Errors: ValueError."""
     return int(text) if text.isdecimal() else float(text or math.nan)
-
-
-def dataset(replay: Replay) -> xarray.Dataset:
-    """The signals of a run as labelled arrays, with where they come from."""
-    trajectory = replay.trajectory
-    signals = recorded_signals(replay.model) if trajectory.signals else ()
-    about = {
-        "title": replay.name,
-        "source": str(replay.path),
-        "gaitsim": str(replay.manifest.get("gaitsim", "")),
-        "status": replay.outcome.status,
-        "reason": replay.outcome.reason,
-        "notices": "\n".join(replay.notices),
-        "parameters": ", ".join(f"{free.address} = {free.unit.exactly(free.start)}" for free in replay.model.free),
-    }
-    return labelled(trajectory, signals, about)
 
 
 def load(folder: str | Path, candidate: str = "best", trust: bool = False) -> Result:

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from gaitsim.cluster.episodes import first_episode
 from gaitsim.model import Model
 from gaitsim.parts.find import Library
 from gaitsim.results.bundle import Bundle, bundled
@@ -19,6 +18,8 @@ from gaitsim.results.trust import check_trust
 from gaitsim.spec.document import Mapping
 from gaitsim.spec.inheritance import override, split_setting, without
 from gaitsim.spec.resolve import resolve
+from gaitsim.spec.schema import optimize_section
+from gaitsim.spec.study import episodes
 
 
 @dataclass(frozen=True)
@@ -62,7 +63,7 @@ def source_of_result(folder: Path, settings: Sequence[str], trusted: bool, candi
         place, recorded = evaluation.candidate, dict(vars(evaluation.verdict))
         starts = dict(zip((f.address for f in bundle.model().free), place.x, strict=True))
         notice = f"candidate {place.generation}:{place.index} of {folder}"
-        document, recorded, told = first_episode(document, recorded)
+        document, recorded, told = _first_episode(document, recorded)
         notice += told
         if evaluation.verdict.status in ("killed", "timeout"):
             notice += f", which the search had to end ({evaluation.verdict.reason}); Ctrl-C ends it here"
@@ -77,3 +78,17 @@ def source_of_result(folder: Path, settings: Sequence[str], trusted: bool, candi
     for setting in settings:
         document, recorded = override(document, *split_setting(setting)), {}
     return Source(document, library, name, starts, (notice,) if notice else (), manifest, recorded, str(folder))
+
+
+def _first_episode(document: Mapping, verdict: Map[str, Any]) -> tuple[Mapping, dict[str, Any], str]:
+    """The spec of a search's first episode, what it says of that one, and words that tell of the others."""
+    rows, found = episodes(document), verdict["episodes"]
+    if not rows[0].settings:
+        return document, dict(verdict), ""
+    told = f", episode 1 of {len(rows)}: {', '.join(f'{a} = {v}' for a, v in rows[0].settings.items())}"
+    if not found:
+        return rows[0].document, dict(verdict), told
+    scores = ", ".join("failed" if one["score"] is None else f"{one['score']:.5g}" for one in found)
+    how = optimize_section(document).combine
+    told += f" (the episodes' scores are {scores}; the candidate's is their {how}); for another one, --set its values"
+    return rows[0].document, dict(verdict) | found[0], told

@@ -7,8 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.analysis.replay import Replay, replay_of, replayed
+from gaitsim.analysis.replay import Replay, replayed
 from gaitsim.cli.main import main
+from gaitsim.study.replays import replay_of
 from gaitsim.study.source import source_of_result
 from tests.simulation.models import ROOT, model, written
 

@@ -1,0 +1,33 @@
+"""A source run once more, and what its reader should know of that."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+from gaitsim.analysis.replay import Replay, replayed
+from gaitsim.results.manifest import changed_versions
+from gaitsim.results.store import row_data
+from gaitsim.study.source import Source
+from gaitsim.study.verify import differences
+
+
+def replay_of(source: Source, path: Path, label: str = "", duration: float | None = None) -> Replay:
+    """Run a source, and note what its reader should know: other versions, a search that has not ended.
+
+    Errors: InvalidSpec, InvalidComponent.
+    """
+    model = source.model()
+    manifest = dict(source.manifest)
+    made = replayed(model, path, label or (path.name if manifest else path.stem), manifest, duration=duration)
+    notices = [*source.notices, *model.notices]
+    changed = changed_versions(manifest) if manifest else []
+    if changed:
+        notices.append(f"{path} was made with other versions ({', '.join(changed)})")
+    if manifest and manifest["status"] != "complete":
+        notices.append(f"{path} is not complete: its search is {manifest['status']}")
+    if source.recorded and duration is None:
+        found = differences(source.recorded, row_data({}, made.outcome))
+        if found:
+            notices.append(f"the replay of {path} differs from its record: {'; '.join(found[:3])}")
+    return replace(made, notices=tuple(notices))
