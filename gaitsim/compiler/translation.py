@@ -6,9 +6,11 @@ Python, to be read first.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any
 
 from llvmlite import ir
@@ -25,7 +27,9 @@ _COPIES = 3
 _CHUNK = 64
 
 _LANES = ir.VectorType(DOUBLE, 8)
-_KINDS = {"integer": INTEGER, "number": DOUBLE, "pointer": POINTER, "shared": POINTER}
+_KINDS = {"flag": FLAG, "integer": INTEGER, "number": DOUBLE, "pointer": POINTER, "shared": POINTER}
+# What `output` of all parts is called with, at the start and later; and what the start of a part needs of it.
+_OUTPUTS = {**FRAME, "places": "pointer", "values": "pointer", "count": "integer", "starting": "flag", "strict": "flag"}
 _BEGIN = ("dt", "states", "places", "values", "count")
 
 
@@ -34,6 +38,11 @@ class Translation:
     plan: Plan
     text: Any = field(default_factory=lambda: ir.Module("program"))
     names: dict[str, Any] = field(default_factory=dict)
+
+    @cached_property
+    def users(self) -> Counter[str]:
+        """How many parts each kernel has."""
+        return Counter(piece.kernel for piece in self.plan.pieces)
 
     def module(self) -> Any:
         """The whole module; kernels and what MuJoCo has are only declared."""
@@ -100,12 +109,19 @@ class Translation:
 
     # --- parts ---
 
-    def _stage(self, f: Writer, index: int, stage: str, scratch: Any, copied: bool) -> Any:
-        """Call one function of a part: whether it raised."""
+    def _stage(self, f: Writer, index: int, stage: str, scratch: Any, strict: Any) -> None:
+        """Call one function of a part; leave if it raises and that counts, or before what it might never end on."""
         piece = self.plan.pieces[index]
-        attributes = ("alwaysinline",) if copied and self._copies(piece) else ("noinline",)
+        if stage not in piece.stages:
+            return
+        if piece.wary:
+            unready = f.builder.not_(self._is_finite(f, scratch, len(piece.inputs)))
+            f.return_if(f.builder.and_(strict, unready), FLAG(0))
+        copied = self.users[piece.kernel] <= _COPIES
         arguments = [*self._own_tables(f, piece, scratch), f.dt]
-        return f.builder.call(self._kernel(piece, stage), arguments, attrs=attributes)
+        attributes = ("alwaysinline" if copied else "noinline",)
+        raised = f.builder.call(self._kernel(piece, stage), arguments, attrs=attributes)
+        f.return_if(f.builder.and_(strict, raised), FLAG(0))
 
     def _own_tables(self, f: Writer, piece: Piece, scratch: Any) -> list[Any]:
         """Where a part's own numbers are: p, u, x and y."""
@@ -115,9 +131,6 @@ class Translation:
             f.place(f.states, piece.states.start),
             f.place(f.outputs, piece.outputs.start),
         ]
-
-    def _copies(self, piece: Piece) -> bool:
-        return sum(other.kernel == piece.kernel for other in self.plan.pieces) <= _COPIES
 
     def _kernel(self, piece: Piece, stage: str) -> Any:
         """A kernel's function for one stage: whether it raised."""
@@ -176,27 +189,40 @@ class Translation:
             self._read(f, i, place)
         with f.times(f.rounds) as turn:
             strict = f.builder.icmp_signed("==", turn, f.builder.sub(f.rounds, INTEGER(1)))
-            for call in self.plan.calls:
-                good = self._begin(f, call)
-                wrong = f.builder.and_(strict, f.builder.not_(good))
-                f.return_if(wrong, INTEGER(SUSPECT))
+            given = [f.arguments[word] for word in _OUTPUTS if word in f.arguments]
+            for chunk in self._chunks("outputs", self.plan.calls, _OUTPUTS, self._output):
+                good = f.builder.call(chunk, [*given, FLAG(1), strict], attrs=("noinline",))
+                f.return_if(f.builder.not_(good), INTEGER(SUSPECT))
             self._fill(f)
         f.builder.ret(INTEGER(COMPLETED))
 
-    def _begin(self, f: Writer, call: Step) -> Any:
-        """`start` and `output` of a part: whether all is well."""
-        piece, scratch = self.plan.pieces[call.piece], self._gather(f, call.piece)
-        if not call.last:
-            return f.builder.not_(self._stage(f, call.piece, "output", scratch, copied=False))
-        tables = self._own_tables(f, piece, scratch)
-        given = [f.arguments[word] for word in _BEGIN]
-        return f.builder.call(self._beginning(piece), [*tables, *given], attrs=("noinline",))
+    def _output(self, f: Writer, call: Step) -> None:
+        """One call of a part's `output`, at the start after its `start`; what an early round says ends nothing."""
+        b, index = f.builder, call.piece
+        with nullcontext() if call.always else b.if_then(f.starting), self._timed(f, index):
+            scratch = self._gather(f, index)
+            if not call.last:
+                self._stage(f, index, "output", scratch, f.strict)
+            elif not call.always:
+                self._begin(f, index, scratch)
+            else:
+                with b.if_else(f.starting, likely=False) as (at_the_start, running):
+                    with at_the_start:
+                        self._begin(f, index, scratch)
+                    with running:
+                        self._stage(f, index, "output", scratch, FLAG(1))
+
+    def _begin(self, f: Writer, index: int, scratch: Any) -> None:
+        piece = self.plan.pieces[index]
+        given = [*self._own_tables(f, piece, scratch), *(f.arguments[word] for word in _BEGIN)]
+        wrong = f.builder.not_(f.builder.call(self._beginning(piece), given, attrs=("noinline",)))
+        f.return_if(f.builder.and_(f.strict, wrong), FLAG(0))
 
     def _beginning(self, piece: Piece) -> Any:
         """How the parts of one kernel begin, up to the first thing that fails; values that a spec gives come last."""
         name = f"{piece.kernel}.begin"
         if name not in self.names:
-            words = {**dict.fromkeys("puxy", "pointer"), **{word: START[word] for word in _BEGIN}}
+            words = {**dict.fromkeys("puxy", "pointer"), **{word: _OUTPUTS[word] for word in _BEGIN}}
             f = self._function(name, FLAG, words, apart=False)
             tables = [f.arguments[word] for word in "puxy"]
             if "start" in piece.stages:
@@ -251,7 +277,10 @@ class Translation:
         for i, (place, moves) in enumerate(plan.reads):
             if moves:
                 self._read(f, i, place)
-        self._called(f, "outputs", [(call.piece, "output") for call in plan.calls if call.always])
+        frame, nowhere = [f.arguments[word] for word in FRAME], ir.Constant(POINTER, None)
+        for chunk in self._chunks("outputs", plan.calls, _OUTPUTS, self._output):
+            given = [*frame, nowhere, nowhere, INTEGER(0), FLAG(0), FLAG(1)]
+            self._end_unless(f, b.call(chunk, given, attrs=("noinline",)), SUSPECT)
         self._end_unless(f, self._table_is_finite(f, f.outputs, plan.outputs), SUSPECT)
         for i, (of_outputs, place, sign) in enumerate(plan.writes):
             value = f.load(f.outputs, place) if of_outputs else self._arriving(f, place)
@@ -266,7 +295,8 @@ class Translation:
         for i, place in enumerate(plan.stops):
             running = b.fcmp_ordered("<=", f.load(f.outputs, place), DOUBLE(0.5))
             self._end_unless(f, running, STOPPED + i)
-        self._called(f, "updates", [(part, "update") for part in plan.updates])
+        for chunk in self._chunks("updates", plan.updates, FRAME, self._update):
+            self._end_unless(f, b.call(chunk, frame, attrs=("noinline",)), SUSPECT)
         self._end_unless(f, self._table_is_finite(f, f.states, plan.states), SUSPECT)
         with self._timed(f, "second half"):
             self._advance(f)
@@ -299,21 +329,22 @@ class Translation:
             f.builder.store(f.step, f.reached)
             f.builder.ret(INTEGER(status))
 
-    def _called(self, f: Writer, name: str, calls: list[tuple[int, str]]) -> None:
-        """Call functions of parts in order, some to a native function; a raise ends the step."""
+    def _chunks(
+        self, name: str, calls: Sequence[Any], words: Mapping[str, str], write: Callable[[Writer, Any], None]
+    ) -> Iterator[Any]:
+        """Functions that make calls in order, a number of them each: whether all is well."""
         for number, begin in enumerate(range(0, len(calls), _CHUNK)):
-            inner = self._function(f"{name}.{number}", FLAG, FRAME)
-            for index, stage in calls[begin : begin + _CHUNK]:
-                with self._timed(inner, index):
-                    scratch = self._gather(inner, index)
-                    piece = self.plan.pieces[index]
-                    if piece.wary:
-                        good = self._is_finite(inner, scratch, len(piece.inputs))
-                        inner.return_if(inner.builder.not_(good), FLAG(0))
-                    inner.return_if(self._stage(inner, index, stage, scratch, copied=True), FLAG(0))
-            inner.builder.ret(FLAG(1))
-            arguments = [f.arguments[word] for word in FRAME]
-            self._end_unless(f, f.builder.call(self.names[f"{name}.{number}"], arguments), SUSPECT)
+            chunk = f"{name}.{number}"
+            if chunk not in self.names:
+                f = self._function(chunk, FLAG, words)
+                for call in calls[begin : begin + _CHUNK]:
+                    write(f, call)
+                f.builder.ret(FLAG(1))
+            yield self.names[chunk]
+
+    def _update(self, f: Writer, index: int) -> None:
+        with self._timed(f, index):
+            self._stage(f, index, "update", self._gather(f, index), FLAG(1))
 
     def _timed(self, f: Writer, what: int | str) -> AbstractContextManager[None]:  # noqa: ARG002
         """Around the code of a part or of a named thing: `stopwatch` counts there how long it takes."""
