@@ -9,10 +9,10 @@ from collections.abc import Iterator
 from rows import Report, Section
 from steps import per_step, repeats_of
 
-from gaitsim.parts.find import Library, library_folders
+from gaitsim.components.find import Library, library_folders
 from gaitsim.simulation.run import Simulator
-from gaitsim.spec.document import parse
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse
 
 COUNTS = (14, 50, 200, 1000)
 REPEATS = 3

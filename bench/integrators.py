@@ -15,7 +15,7 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from gaitsim.parts.find import Library, library_folders
+from gaitsim.components.find import Library, library_folders
 from gaitsim.simulation.outcome import Trajectory
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import read_spec, resolve

@@ -14,8 +14,8 @@ from pathlib import Path
 import mujoco
 from rows import Report, Section
 
+from gaitsim.components.find import Library, library_folders
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, library_folders
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import read_spec, resolve
 

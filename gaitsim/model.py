@@ -7,9 +7,9 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Mark, SimulationFailed
-from gaitsim.parts.primitive import Primitive
-from gaitsim.spec.expression import Expression
+from gaitsim.text.expression import Expression
 from gaitsim.units import Unit, parse_unit
 
 WORLD = "world"

@@ -13,11 +13,11 @@ from typer.main import get_command
 
 import gaitsim
 from gaitsim.cli.main import app, main
-from gaitsim.parts.find import Library, shipped_folder
-from gaitsim.parts.review import review
+from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.review import review
 from gaitsim.simulation.run import Simulator
-from gaitsim.spec.document import parse
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse
 
 ROOT = Path(__file__).resolve().parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]

@@ -16,10 +16,10 @@ from gaitsim.analysis.draws import Drawn, draws_of, summaries
 from gaitsim.analysis.replay import Replay
 from gaitsim.analysis.style import labelled, shown_unit
 from gaitsim.analysis.sweep import study_of
+from gaitsim.components.bibliography import read_bibliography
+from gaitsim.components.find import library_folders
 from gaitsim.errors import InvalidSpec
 from gaitsim.model import Model, metric_names
-from gaitsim.parts.bibliography import read_bibliography
-from gaitsim.parts.find import library_folders
 from gaitsim.results.citation import Citation, citations
 from gaitsim.results.listing import parameter_rows, part_rows
 from gaitsim.results.manifest import BadResult

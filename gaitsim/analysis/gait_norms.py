@@ -14,9 +14,9 @@ from gaitsim.analysis.joint_moments import joint_moment
 from gaitsim.analysis.legs import SIDES, Cycle, Leg, mass, on_side, part_at, two_legs
 from gaitsim.analysis.norms import WALKING, Comparison, Norm, compared, read_norm
 from gaitsim.analysis.replay import Replay
+from gaitsim.components.find import Library, library_folders
 from gaitsim.errors import InvalidSpec
 from gaitsim.model import Model, Part
-from gaitsim.parts.find import Library, library_folders
 from gaitsim.results.bundle import COMPONENTS
 from gaitsim.units import parse_unit
 

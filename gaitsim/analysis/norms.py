@@ -12,7 +12,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from gaitsim.parts.find import Library
+from gaitsim.components.find import Library
 from gaitsim.units import parse_unit
 
 Floats = NDArray[np.float64]

@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaitsim.analysis.replay import Replay
+from gaitsim.components.find import shipped_folder
 from gaitsim.errors import Fault, InvalidSpec, Mark
-from gaitsim.parts.find import shipped_folder
-from gaitsim.spec.document import plain, read
+from gaitsim.text.document import plain, read
 
 Floats = NDArray[np.float64]
 

@@ -113,8 +113,8 @@ def _run(replay: Replay) -> Mapping[str, Any]:
 def _about(replay: Replay) -> str:
     """What the spec says about itself; empty if it does not, or cannot be read any more."""
     from gaitsim.errors import GaitsimError
-    from gaitsim.spec.document import Scalar
     from gaitsim.spec.resolve import read_spec
+    from gaitsim.text.document import Scalar
 
     try:
         said = read_spec(replay.folder / "spec.yaml" if replay.folder else replay.path).entries.get("about")

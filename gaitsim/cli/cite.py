@@ -22,7 +22,7 @@ def cite(spec: Spec, settings: Set = None, trust: Trust = False, library: Librar
     gaitsim cite results/2026-11-22-hopping-3f9c --json
     """
     from gaitsim.cli.options import open_library
-    from gaitsim.parts.bibliography import read_bibliography
+    from gaitsim.components.bibliography import read_bibliography
     from gaitsim.results.citation import citations
 
     source = open_source(spec, settings, library, trusted=trust)

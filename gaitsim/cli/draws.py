@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from gaitsim.cli import console
 from gaitsim.errors import Fault, InvalidSpec, Mark, Usage
-from gaitsim.spec.quantity import in_plain_letters
+from gaitsim.text.quantity import in_plain_letters
 from gaitsim.units import UnknownUnit, parse_quantity
 
 if TYPE_CHECKING:

@@ -14,9 +14,9 @@ from gaitsim.cli.options import complete_kinds as _kinds
 from gaitsim.cli.options import complete_references as _references
 
 if TYPE_CHECKING:
+    from gaitsim.components.composite import ComponentFile
+    from gaitsim.components.find import Library
     from gaitsim.errors import Fault
-    from gaitsim.parts.composite import ComponentFile
-    from gaitsim.parts.find import Library
 
 app = typer.Typer(help="List and show the components that specs can use.", no_args_is_help=True, rich_markup_mode=None)
 
@@ -33,8 +33,8 @@ def list_components(
 
     Example: gaitsim library list muscle
     """
+    from gaitsim.components.describe import described
     from gaitsim.errors import Usage, did_you_mean
-    from gaitsim.parts.describe import described
 
     parts = open_library(None, library)
     references = parts.references(kind)
@@ -68,8 +68,8 @@ def show_component(
 
     gaitsim library show controller/muscle_feedback --plot --set gain=3
     """
+    from gaitsim.components.describe import described
     from gaitsim.errors import Usage
-    from gaitsim.parts.describe import described
 
     if settings and not plot:
         raise Usage("--set says at which values curves are drawn; add --plot.")
@@ -107,8 +107,8 @@ def check_components(
 
     gaitsim library check components
     """
+    from gaitsim.components.review import review
     from gaitsim.errors import InvalidComponent
-    from gaitsim.parts.review import review
 
     checked, faults = 0, []
     for reference, parts in _asked(what or [], library):
@@ -144,7 +144,7 @@ def new_component_file(
 
     gaitsim library new muscle my_muscle --like muscle/geyer2010
     """
-    from gaitsim.parts.skeleton import new_component, test_of
+    from gaitsim.components.skeleton import new_component, test_of
     from gaitsim.study.new_files import write_new
 
     parts = open_library(folder / "spec.yaml", library)
@@ -163,9 +163,9 @@ def new_component_file(
 
 def _asked(what: list[str], folders: list[Path] | None) -> Iterator[tuple[str, Library]]:
     """Each component that is to be checked, with the library that it is in."""
+    from gaitsim.components.find import Library, shown
+    from gaitsim.components.review import components_in
     from gaitsim.errors import Usage
-    from gaitsim.parts.find import Library, shown
-    from gaitsim.parts.review import components_in
 
     everything = open_library(None, folders)
     for word in what or [shown(folder) for folder in everything.folders]:
@@ -183,8 +183,8 @@ def _asked(what: list[str], folders: list[Path] | None) -> Iterator[tuple[str, L
 def _of_native_code(reference: str, parts: Library) -> list[Fault]:
     """Why a component cannot become native code."""
     from gaitsim.compiler.kernel import address_of
+    from gaitsim.components.primitive import Primitive
     from gaitsim.errors import InvalidComponent
-    from gaitsim.parts.primitive import Primitive
 
     component = parts.find(reference)
     try:
@@ -219,9 +219,9 @@ def _drawn(component: ComponentFile, settings: list[str], folder: Path) -> Path 
 def _values(component: ComponentFile, settings: list[str]) -> dict[str, float]:
     """Parameters in SI, from NAME=VALUE. Errors: Usage."""
     from gaitsim.errors import Faults, Usage, did_you_mean
-    from gaitsim.spec.document import parse_value
     from gaitsim.spec.inheritance import split_setting
-    from gaitsim.spec.quantity import number
+    from gaitsim.text.document import parse_value
+    from gaitsim.text.quantity import number
 
     values, faults = {}, Faults()
     for name, text in map(split_setting, settings):

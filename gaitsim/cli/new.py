@@ -14,7 +14,7 @@ from gaitsim.errors import command
 
 
 def _shipped(incomplete: str) -> list[str]:
-    from gaitsim.parts.find import shipped_specs
+    from gaitsim.components.find import shipped_specs
 
     return [name for name in shipped_specs() if name.startswith(incomplete)]
 

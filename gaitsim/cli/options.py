@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
+    from gaitsim.components.find import Library
     from gaitsim.model import Model
-    from gaitsim.parts.find import Library
-    from gaitsim.spec.document import Mapping
+    from gaitsim.text.document import Mapping
 
 
 
@@ -57,7 +57,7 @@ class ModeName(StrEnum):
 def seconds_of(option: str, text: str | None) -> float | None:
     """A time such as '2 s', '300 ms' or 2. Errors: Usage."""
     from gaitsim.errors import Usage
-    from gaitsim.spec.quantity import in_plain_letters
+    from gaitsim.text.quantity import in_plain_letters
     from gaitsim.units import UnknownUnit, parse_quantity, parse_unit
 
     if text is None:
@@ -76,8 +76,8 @@ def open_library(spec: Path | None, folders: list[Path] | None) -> Library:
 
     Errors: Usage if a folder is missing, or if the spec is the copy that a result holds.
     """
+    from gaitsim.components.find import Library, library_folders
     from gaitsim.errors import Usage
-    from gaitsim.parts.find import Library, library_folders
 
     if spec is not None and spec.name == "spec.yaml" and (spec.parent / "manifest.json").is_file():
         rule = "this is the spec of a result, and its components are run with that only"

@@ -6,18 +6,18 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from gaitsim.components.find import Library
 from gaitsim.errors import Faults
 from gaitsim.model import Free, Model
 from gaitsim.optimization.combination import combined
 from gaitsim.optimization.evaluation import Verdict
-from gaitsim.parts.find import Library
 from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode, Simulator
-from gaitsim.spec.document import Mapping
 from gaitsim.spec.resolve import resolve
 from gaitsim.spec.schema import optimize_section
 from gaitsim.spec.study import episodes
+from gaitsim.text.document import Mapping
 
 
 @dataclass(frozen=True)

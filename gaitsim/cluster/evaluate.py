@@ -9,8 +9,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from gaitsim.cluster.episodes import Episodes, bundle_episodes
+from gaitsim.components.find import shown
 from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
-from gaitsim.parts.find import shown
 from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.run import Mode
 

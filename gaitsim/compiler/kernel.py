@@ -15,8 +15,8 @@ from types import ModuleType
 
 from gaitsim.cache import keep, kept
 from gaitsim.compiler import machine
+from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Fault, InvalidComponent, Mark
-from gaitsim.parts.primitive import Primitive
 
 START, OUTPUT, UPDATE = 0, 1, 2
 STAGES = {"start": START, "output": OUTPUT, "update": UPDATE}

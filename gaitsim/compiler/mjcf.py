@@ -13,9 +13,9 @@ from gaitsim.compiler.mechanics import Mechanics, numbers_of
 from gaitsim.compiler.places import DrawnForce, DrawnLine, Point, Touching, world_frames
 from gaitsim.compiler.ties import Tie
 from gaitsim.component import Refused
+from gaitsim.components.load import function_of, raised
 from gaitsim.errors import Fault, Faults, InvalidComponent, InvalidSpec
 from gaitsim.model import WORLD, Model, Part
-from gaitsim.parts.load import function_of, raised
 
 _INTEGRATORS = {
     "euler": mujoco.mjtIntegrator.mjINT_EULER,

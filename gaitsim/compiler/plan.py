@@ -10,8 +10,8 @@ from functools import cache
 from gaitsim.compiler.kernel import Kernel, kernel_of
 from gaitsim.compiler.mjcf import Assembly
 from gaitsim.compiler.program import Program
+from gaitsim.components.primitive import Primitive
 from gaitsim.model import Part
-from gaitsim.parts.primitive import Primitive
 
 
 @dataclass(frozen=True)

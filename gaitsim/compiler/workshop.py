@@ -99,7 +99,7 @@ def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
 
 def _compile(files: Sequence[Sequence[str]]) -> None:
     """Compile each component that no other process has compiled by then."""
-    from gaitsim.parts.load import load_primitive
+    from gaitsim.components.load import load_primitive
 
     for reference, path, shown, source in files:
         kernel_of(load_primitive(reference, Path(path), shown, source)).bitcode()

@@ -12,9 +12,9 @@ from pathlib import Path
 
 from gaitsim.errors import Fault, GaitsimError, Mark
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, shown
-from gaitsim.parts.load import as_lines
-from gaitsim.spec.document import Mapping, dump, parse, plain, text_of
+from gaitsim.components.find import Library, shown
+from gaitsim.components.load import as_lines
+from gaitsim.text.document import Mapping, dump, parse, plain, text_of
 from gaitsim.spec.inheritance import without_marked
 from gaitsim.spec.resolve import resolve
 

@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from gaitsim import __version__
 from gaitsim.errors import Faults, Mark
 from gaitsim.model import Model, Number, Part
-from gaitsim.parts.bibliography import keys_of, unknown_key
-from gaitsim.parts.check import declaration_marks, parse
+from gaitsim.components.bibliography import keys_of, unknown_key
+from gaitsim.components.checks.check import declaration_marks, parse
 
 _MUJOCO = "todorov2012"
 _OWN = f"""@software{{gaitsim,

@@ -25,7 +25,7 @@ from gaitsim.results.rows import row_words
 from gaitsim.results.trust import remember
 from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.outcome import Outcome
-from gaitsim.spec.document import dump
+from gaitsim.text.document import dump
 from gaitsim.units import with_unit
 
 

@@ -10,8 +10,8 @@ from collections.abc import Iterable
 
 from gaitsim.errors import GaitsimError
 from gaitsim.folders import state_folder
-from gaitsim.parts.find import shipped_folder, shown
-from gaitsim.parts.load import as_lines, digest_of
+from gaitsim.components.find import shipped_folder, shown
+from gaitsim.components.load import as_lines, digest_of
 from gaitsim.results.bundle import Bundle
 
 _MEMORY = "known_components"

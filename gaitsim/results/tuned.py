@@ -10,8 +10,8 @@ from pathlib import Path
 from gaitsim.errors import Fault, InvalidSpec, Mark
 from gaitsim.model import Free, Model
 from gaitsim.optimization.problem import Problem, Variable
-from gaitsim.spec.document import Mapping, Node, Scalar, dump, read
-from gaitsim.spec.quantity import mismatch
+from gaitsim.text.document import Mapping, Node, Scalar, dump, read
+from gaitsim.text.quantity import mismatch
 from gaitsim.units import Quantity, Unit, UnknownUnit, parse_quantity
 
 _ABOUT = "Written by gaitsim optimize --adopt; not by hand."

@@ -11,13 +11,13 @@ import numpy as np
 
 from gaitsim.compiler.program import Floats
 from gaitsim.component import Curve, Output, Parameter
-from gaitsim.parts.build import placed
-from gaitsim.parts.check import class_functions
-from gaitsim.parts.composite import ComponentFile, Composite
-from gaitsim.parts.curve import TIME
-from gaitsim.parts.describe import described
-from gaitsim.parts.load import function_of
-from gaitsim.parts.primitive import Primitive
+from gaitsim.components.checks.build import placed
+from gaitsim.components.checks.check import class_functions
+from gaitsim.components.checks.curve import TIME
+from gaitsim.components.composite import ComponentFile, Composite
+from gaitsim.components.describe import described
+from gaitsim.components.load import function_of
+from gaitsim.components.primitive import Primitive
 from gaitsim.simulation.trial import Trial
 from gaitsim.units import parse_unit
 

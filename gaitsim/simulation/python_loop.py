@@ -17,7 +17,7 @@ import numpy as np
 
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES, tie_place
 from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
-from gaitsim.parts.load import function_of
+from gaitsim.components.load import function_of
 from gaitsim.simulation.body import Body
 from gaitsim.simulation.ending import Ending
 from gaitsim.simulation.failure import of_exception, of_values

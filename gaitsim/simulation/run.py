@@ -13,9 +13,9 @@ import numpy as np
 
 from gaitsim.compiler.mjcf import assemble
 from gaitsim.compiler.program import Floats, Program, measures
+from gaitsim.components.load import function_of
 from gaitsim.errors import InvalidComponent, InvalidSpec, SimulationFailed
 from gaitsim.model import TERMS, Model, Objective, Part, metric_names, recorded_signals
-from gaitsim.parts.load import function_of
 from gaitsim.simulation.ending import Ending
 from gaitsim.simulation.failure import raised_in
 from gaitsim.simulation.outcome import Outcome, Trajectory

@@ -6,9 +6,9 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 from gaitsim.component import End
+from gaitsim.components.checks.start_range import Ranged, end_in_si, units_of
 from gaitsim.errors import Fault
 from gaitsim.model import Model, Part
-from gaitsim.parts.start_range import Ranged, end_in_si, units_of
 from gaitsim.simulation.run import Simulator
 from gaitsim.units import parse_unit
 

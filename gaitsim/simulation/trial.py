@@ -10,9 +10,9 @@ import numpy as np
 
 from gaitsim.compiler.kernel import OUTPUT, START, UPDATE, address_of
 from gaitsim.compiler.program import Floats
+from gaitsim.components.load import function_of
+from gaitsim.components.primitive import Primitive
 from gaitsim.errors import did_you_mean
-from gaitsim.parts.load import function_of
-from gaitsim.parts.primitive import Primitive
 from gaitsim.simulation.run import Mode
 from gaitsim.simulation.view import View
 from gaitsim.units import parse_unit

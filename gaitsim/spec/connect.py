@@ -10,7 +10,7 @@ from gaitsim.errors import Mark, did_you_mean
 from gaitsim.model import WORLD, Connection, Part, Place
 from gaitsim.spec.expand import Expansion
 from gaitsim.spec.ports import Wire
-from gaitsim.spec.quantity import measured
+from gaitsim.text.quantity import measured
 from gaitsim.units import parse_unit
 
 

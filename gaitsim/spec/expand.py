@@ -9,20 +9,20 @@ from dataclasses import dataclass, field, replace
 
 from gaitsim.component import Input, Parameter
 from gaitsim.component import Part as InnerPart
+from gaitsim.components.composite import ComponentFile, Composite
+from gaitsim.components.find import Library, at
+from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Faults, GaitsimError, Mark, did_you_mean, nearest, with_article
 from gaitsim.model import Group, Part, Recording
-from gaitsim.parts.composite import ComponentFile, Composite
-from gaitsim.parts.find import Library, at
-from gaitsim.parts.primitive import Primitive
-from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, plain
 from gaitsim.spec.inheritance import merged, without
 from gaitsim.spec.numbers import Names, NumberTable
 from gaitsim.spec.points import PointReader
 from gaitsim.spec.ports import PortReader, Wire
-from gaitsim.spec.quantity import example
 from gaitsim.spec.scope import Scope, Where
 from gaitsim.spec.series import SAMPLE, read_series
-from gaitsim.spec.spelling import respelled
+from gaitsim.text.document import Mapping, Node, Scalar, Sequence, plain
+from gaitsim.text.quantity import example
+from gaitsim.text.spelling import respelled
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 _SIDES = ("l", "r")

@@ -8,9 +8,9 @@ from collections.abc import Callable, Iterator, Set
 from pathlib import Path
 
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, Usage, did_you_mean
-from gaitsim.spec import document
-from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, plain
-from gaitsim.spec.syntax import DEPTH_LIMIT
+from gaitsim.text import document
+from gaitsim.text.document import Mapping, Node, Scalar, Sequence, plain
+from gaitsim.text.syntax import DEPTH_LIMIT
 
 VALUE_KEYS = frozenset({"value", "tune", "spread", "source"})
 _SECTIONS = frozenset(

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+from gaitsim.components.composite import ComponentFile, Composite
+from gaitsim.components.find import Library
 from gaitsim.errors import GaitsimError
 from gaitsim.model import TERMS
-from gaitsim.parts.composite import ComponentFile, Composite
-from gaitsim.parts.find import Library
-from gaitsim.spec.quantity import example
 from gaitsim.spec.schema import Header
+from gaitsim.text.quantity import example
 
 _CONNECTION = {
     "type": "object",

@@ -8,12 +8,12 @@ from dataclasses import dataclass, field, replace
 from gaitsim.component import Parameter
 from gaitsim.errors import Faults
 from gaitsim.model import Free, Number
-from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
-from gaitsim.spec.expression import BadExpression, parse_expression
 from gaitsim.spec.inheritance import VALUE_KEYS
-from gaitsim.spec.quantity import example, number, written_unit
-from gaitsim.spec.quantity import said as said_of
-from gaitsim.spec.spelling import respelled
+from gaitsim.text.document import Mapping, Node, Scalar, Sequence
+from gaitsim.text.expression import BadExpression, parse_expression
+from gaitsim.text.quantity import example, number, written_unit
+from gaitsim.text.quantity import said as said_of
+from gaitsim.text.spelling import respelled
 from gaitsim.units import parse_unit, with_unit
 
 Names = dict[str, tuple[int, str]]

@@ -7,11 +7,11 @@ from collections.abc import Mapping as Map
 from gaitsim.errors import Mark, did_you_mean
 from gaitsim.model import TERMS, Objective
 from gaitsim.spec.connect import Wiring
-from gaitsim.spec.document import Mapping, Node
 from gaitsim.spec.expand import Expansion
 from gaitsim.spec.inheritance import without
-from gaitsim.spec.quantity import measured, said
 from gaitsim.spec.scope import Scope
+from gaitsim.text.document import Mapping, Node
+from gaitsim.text.quantity import measured, said
 from gaitsim.units import parse_unit
 
 

@@ -9,10 +9,10 @@ from dataclasses import dataclass, field
 from gaitsim.component import Parameter
 from gaitsim.errors import Faults, did_you_mean
 from gaitsim.model import WORLD, Place
-from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
 from gaitsim.spec.numbers import NumberTable
 from gaitsim.spec.scope import Where, absolute
-from gaitsim.spec.spelling import respelled
+from gaitsim.text.document import Mapping, Node, Scalar, Sequence
+from gaitsim.text.spelling import respelled
 
 _LENGTH = Parameter("m", "a coordinate")
 _FRACTION = Parameter("1", "a fraction of the segment's length")

@@ -7,11 +7,11 @@ from dataclasses import dataclass, field
 
 from gaitsim.component import Input, Link, Option, Parameter
 from gaitsim.errors import Faults, Mark, did_you_mean
-from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
 from gaitsim.spec.numbers import Names, NumberTable, is_value
-from gaitsim.spec.quantity import said as said_of
 from gaitsim.spec.scope import Where, absolute
-from gaitsim.spec.spelling import respelled
+from gaitsim.text.document import Mapping, Node, Scalar, Sequence
+from gaitsim.text.quantity import said as said_of
+from gaitsim.text.spelling import respelled
 
 _DELAY = Parameter("s", "a delay", bounds=(0, 3600))
 _FIELDS = ("from", "delay", "initial")

@@ -6,19 +6,19 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from gaitsim.component import Parameter
+from gaitsim.components.composite import declared_parameters
+from gaitsim.components.find import Library
+from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Faults, did_you_mean
 from gaitsim.model import WORLD, Model, Part, Simulate, metric_units
-from gaitsim.parts.composite import declared_parameters
-from gaitsim.parts.find import Library
-from gaitsim.parts.primitive import Primitive
 from gaitsim.spec.connect import Wiring
-from gaitsim.spec.document import Mapping, Node, Scalar
 from gaitsim.spec.expand import Expansion, sides
 from gaitsim.spec.inheritance import override, with_parents
 from gaitsim.spec.numbers import NumberTable
 from gaitsim.spec.objective import read_objective
 from gaitsim.spec.schema import Header, header
 from gaitsim.spec.scope import Scope
+from gaitsim.text.document import Mapping, Node, Scalar
 
 Settings = Iterable[tuple[str, str]]
 

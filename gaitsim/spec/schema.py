@@ -9,9 +9,9 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from pydantic_core import PydanticCustomError
 
 from gaitsim.errors import Faults, Mark
-from gaitsim.spec.document import Mapping, Node, Sequence, plain
-from gaitsim.spec.quantity import BadQuantity, example, needed, quantity_of
-from gaitsim.spec.spelling import respelled
+from gaitsim.text.document import Mapping, Node, Sequence, plain
+from gaitsim.text.quantity import BadQuantity, example, needed, quantity_of
+from gaitsim.text.spelling import respelled
 
 
 def _quantity(unit: str, above: float | None = None) -> tuple[BeforeValidator, WithJsonSchema]:

@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 
 from gaitsim.errors import Faults, Mark, did_you_mean
 from gaitsim.model import WORLD
-from gaitsim.spec.document import Node
 from gaitsim.spec.numbers import Names
+from gaitsim.text.document import Node
 
 _OTHER = {"l": "r", "r": "l"}
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from gaitsim.component import Series
+from gaitsim.components.find import Library, at
+from gaitsim.components.table import resampled
 from gaitsim.errors import Faults, GaitsimError
 from gaitsim.model import Recording
-from gaitsim.parts.find import Library, at
-from gaitsim.parts.table import resampled
-from gaitsim.spec.document import Node, Scalar, Sequence
-from gaitsim.spec.quantity import example, measured, number, written_unit
+from gaitsim.text.document import Node, Scalar, Sequence
+from gaitsim.text.quantity import example, measured, number, written_unit
 from gaitsim.units import parse_unit
 
 SAMPLE = "norms/fukuchi2018_walking.knee_flexion"

@@ -8,9 +8,9 @@ from collections.abc import Sequence as Many
 from dataclasses import dataclass
 
 from gaitsim.errors import Faults, Mark, Usage
-from gaitsim.spec.document import Mapping, Node, Sequence, dump, plain
 from gaitsim.spec.inheritance import laid, override, split_setting, without
-from gaitsim.spec.quantity import in_plain_letters, said, unknown_unit
+from gaitsim.text.document import Mapping, Node, Sequence, dump, plain
+from gaitsim.text.quantity import in_plain_letters, said, unknown_unit
 from gaitsim.units import UnknownUnit, parse_quantity, with_unit
 
 _RANGE_LIMIT = 100_000

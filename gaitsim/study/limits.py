@@ -12,11 +12,11 @@ from gaitsim.optimization.limit import Bracket
 from gaitsim.simulation.batch import run_all
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode
-from gaitsim.spec.document import Mapping as Document
 from gaitsim.spec.inheritance import override, split_setting
-from gaitsim.spec.quantity import BadQuantity, quantity_of
 from gaitsim.spec.study import Span
 from gaitsim.study.source import Source
+from gaitsim.text.document import Mapping as Document
+from gaitsim.text.quantity import BadQuantity, quantity_of
 from gaitsim.units import parse_unit, with_unit
 
 

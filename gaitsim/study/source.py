@@ -8,18 +8,18 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from gaitsim.components.find import Library
 from gaitsim.model import Model
-from gaitsim.parts.find import Library
 from gaitsim.results.bundle import Bundle, bundled
 from gaitsim.results.manifest import read_result
 from gaitsim.results.pick import pick
 from gaitsim.results.rows import pick_row, read_rows, row_starts, row_words
 from gaitsim.results.trust import check_trust
-from gaitsim.spec.document import Mapping
 from gaitsim.spec.inheritance import override, split_setting, without
 from gaitsim.spec.resolve import resolve
 from gaitsim.spec.schema import optimize_section
 from gaitsim.spec.study import episodes
+from gaitsim.text.document import Mapping
 
 
 @dataclass(frozen=True)

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+from gaitsim.components.find import Library, shipped_folder, shipped_specs
+from gaitsim.components.skeleton import new_component, test_of
 from gaitsim.errors import Usage, did_you_mean
-from gaitsim.parts.find import Library, shipped_folder, shipped_specs
-from gaitsim.parts.skeleton import new_component, test_of
-from gaitsim.spec.document import Mapping, parse
+from gaitsim.text.document import Mapping, parse
 
 _README = """\
 # {title}

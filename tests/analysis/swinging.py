@@ -5,11 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 
 from gaitsim.analysis.replay import Replay, replayed
+from gaitsim.components.find import Library, shipped_folder
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, shipped_folder
-from gaitsim.spec.document import parse
 from gaitsim.spec.inheritance import override
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse
 
 COMPONENTS = Path(__file__).parent / "components"
 SPEC = """\

@@ -18,7 +18,7 @@ from gaitsim.analysis.motion import motion_figures
 from gaitsim.analysis.muscles import figures_of, matching_muscles, muscle_figures
 from gaitsim.analysis.norms import POINTS, read_norm
 from gaitsim.analysis.replay import Replay
-from gaitsim.parts.find import Library, shipped_folder
+from gaitsim.components.find import Library, shipped_folder
 from tests.analysis.replays import cut, of_spec
 from tests.analysis.walking import STRIDE, TIMES, WEIGHT, Floats, extended, on_ground, phase, walk
 from tests.simulation.models import ROOT

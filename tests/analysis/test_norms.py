@@ -17,7 +17,7 @@ from gaitsim.analysis.norms import (
     root_mean_square_error,
     strides,
 )
-from gaitsim.parts.find import Library, shipped_folder
+from gaitsim.components.find import Library, shipped_folder
 
 LIBRARY = Library((shipped_folder(),))
 CYCLE = np.linspace(0, 1, 101)

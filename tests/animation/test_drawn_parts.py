@@ -9,9 +9,9 @@ import pytest
 from gaitsim.animation import CannotAnimate
 from gaitsim.animation.stage import Stage, stage_of
 from gaitsim.component import Attachment
-from gaitsim.parts.find import Library, library_folders
+from gaitsim.components.find import Library, library_folders
 from gaitsim.spec.resolve import read_spec, resolve
-from tests.parts.calls import FOLDER, primitive
+from tests.components.calls import FOLDER, primitive
 from tests.simulation.models import written
 
 JOINTS = sorted(path.stem for path in (FOLDER / "joint").glob("[!_]*.py"))

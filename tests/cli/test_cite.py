@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from gaitsim.components.bibliography import entries, keys_of, read_bibliography
+from gaitsim.components.find import shipped_folder
 from gaitsim.optimization.algorithms import ALGORITHMS, SOURCES
-from gaitsim.parts.bibliography import entries, keys_of, read_bibliography
-from gaitsim.parts.find import shipped_folder
 
 from .commands import gaitsim
 

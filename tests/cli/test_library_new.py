@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.parts.find import Library, shipped_folder
+from gaitsim.components.find import Library, shipped_folder
 
 from .commands import gaitsim
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.parts.find import shipped_specs
+from gaitsim.components.find import shipped_specs
 
 from .commands import gaitsim
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gaitsim.compiler.mjcf import Assembly, assemble
-from gaitsim.parts.find import Library, library_folders
+from gaitsim.components.find import Library, library_folders
 from gaitsim.spec.resolve import read_spec, resolve
 
 SPEC = """

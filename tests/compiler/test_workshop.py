@@ -11,10 +11,10 @@ import pytest
 from gaitsim.cache import kept
 from gaitsim.compiler import workshop
 from gaitsim.compiler.kernel import Kernel, kernel_of
+from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.load import load_primitive
+from gaitsim.components.primitive import Primitive
 from gaitsim.errors import InvalidComponent
-from gaitsim.parts.find import Library, shipped_folder
-from gaitsim.parts.load import load_primitive
-from gaitsim.parts.primitive import Primitive
 
 NAMES = ("measure/peak", "measure/range", "controller/clock")
 

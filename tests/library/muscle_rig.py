@@ -7,11 +7,11 @@ from pathlib import Path
 
 import numpy as np
 
-from gaitsim.parts.find import Library, library_folders
+from gaitsim.components.find import Library, library_folders
 from gaitsim.simulation.outcome import Trajectory
 from gaitsim.simulation.run import Simulator
-from gaitsim.spec.document import parse
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse
 
 FOLDER = Path(__file__).parent / "rig"
 MUSCLES = ("geyer2003", "geyer2010", "millard2012", "degroote2016", "rigid_tendon")

@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+from gaitsim.components.find import Library, library_folders
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, library_folders
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import read_spec, resolve
 

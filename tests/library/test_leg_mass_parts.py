@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 from parts.calls import Tables, computed, metrics, primitive
 
+from gaitsim.components.find import Library, library_folders
 from gaitsim.errors import GaitsimError
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, library_folders
 from gaitsim.simulation.moment_arms import moment_arms
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import read_spec, resolve

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from parts.calls import computed, metrics
 
+from gaitsim.components.find import Library, library_folders
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, library_folders
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import read_spec, resolve
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 from parts.calls import Tables, computed, primitive
 
-from gaitsim.parts.find import Library, shipped_folder
-from gaitsim.parts.load import function_of
+from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.load import function_of
 from gaitsim.simulation.run import Mode, Simulator
-from gaitsim.spec.document import parse
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse
 
 modes = pytest.mark.parametrize("mode", ["rapid", "normal"])
 HELPERS: dict[str, Any] = function_of(primitive("sensor/noise").cls, "update").__globals__

@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 from parts.calls import FOLDER, Tables, metrics, primitive
 
+from gaitsim.components.bibliography import read_bibliography
+from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.table import Table, load_table, resampled
 from gaitsim.errors import InvalidSpec
-from gaitsim.parts.bibliography import read_bibliography
-from gaitsim.parts.find import Library, shipped_folder
-from gaitsim.parts.table import Table, load_table, resampled
 from gaitsim.results.bundle import bundled
 from gaitsim.results.citation import citations
 from gaitsim.simulation.run import Simulator
-from gaitsim.spec.document import parse
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse
 
 CYCLE = np.linspace(0, 1, 101)
 BUMP = np.interp(CYCLE, [0, 0.25, 0.5, 0.75, 1], [0.0, 1.0, 0.2, 2.0, 0.0])

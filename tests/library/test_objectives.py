@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from parts.calls import FILES, computed
 
-from gaitsim.parts.find import Library, shipped_folder
+from gaitsim.components.find import Library, shipped_folder
 from gaitsim.simulation.run import Simulator
-from gaitsim.spec.document import parse, plain
 from gaitsim.spec.json_schema import spec_schema
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse, plain
 
 GOOD = {"fall_time": 20.0, "fell": 0.0, "distance": 26.0, "speed": 1.3, "cost_of_transport": 3.2}
 

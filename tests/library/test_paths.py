@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 from parts.calls import computed
 
+from gaitsim.components.find import Library, library_folders
 from gaitsim.errors import InvalidSpec
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, library_folders
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import read_spec, resolve
 

@@ -9,7 +9,7 @@ import pytest
 from parts.calls import FOLDER, computed, metrics
 from simulation.models import written
 
-from gaitsim.parts.find import Library
+from gaitsim.components.find import Library
 from gaitsim.simulation.outcome import Trajectory
 from gaitsim.simulation.run import Mode, Simulator
 

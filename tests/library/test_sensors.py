@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from parts.calls import computed
 
-from gaitsim.parts.find import Library, shipped_folder
+from gaitsim.components.find import Library, shipped_folder
 from gaitsim.simulation.outcome import Trajectory
 from gaitsim.simulation.run import Mode, Simulator
-from gaitsim.spec.document import parse
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse
 
 modes = pytest.mark.parametrize("mode", ["rapid", "normal"])
 

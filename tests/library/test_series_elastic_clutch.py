@@ -10,11 +10,11 @@ import pytest
 from parts.calls import FOLDER, computed
 from simulation.models import ROOT
 
-from gaitsim.parts.find import Library
+from gaitsim.components.find import Library
 from gaitsim.simulation.run import Mode, Simulator
-from gaitsim.spec.document import parse
 from gaitsim.spec.resolve import resolve
 from gaitsim.study.opening import source_of_spec
+from gaitsim.text.document import parse
 
 from .play import played
 

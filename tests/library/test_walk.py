@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.parts.find import Library, shipped_folder
+from gaitsim.components.find import Library, shipped_folder
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode, Simulator
-from gaitsim.spec.document import parse
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse
 
 # Two legs that stand for 62 % of 1.1 s, half a stride apart; the feet are set down at 1.3 m/s.
 _PRETENDER = '''\

@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 
 from gaitsim.optimization.combination import combined
-from gaitsim.spec.document import parse
 from gaitsim.spec.study import episodes
+from gaitsim.text.document import parse
 
 from .searches import SPEC, Ended, Study
 

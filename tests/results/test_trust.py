@@ -13,7 +13,7 @@ import pytest
 from cli.commands import Said
 from cli.commands import gaitsim as run_gaitsim
 
-from gaitsim.parts.load import digest_of
+from gaitsim.components.load import digest_of
 from gaitsim.results import bundle
 from gaitsim.results.bundle import read_bundle
 from gaitsim.results.trust import Untrusted, check_trust, remember

@@ -130,7 +130,7 @@ def _mean(row: dict[str, str]) -> list[str]:
 
 
 def _yaml(path: Path) -> Any:
-    from gaitsim.spec.document import plain, read
+    from gaitsim.text.document import plain, read
 
     return plain(read(path))
 

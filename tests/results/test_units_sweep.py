@@ -12,11 +12,11 @@ import pytest
 
 from gaitsim.model import Model
 from gaitsim.optimization.history import parameters_csv
-from gaitsim.parts.find import Library, shipped_folder
+from gaitsim.components.find import Library, shipped_folder
 from gaitsim.results.listing import parameter_rows
 from gaitsim.results.tuned import problem_of, read_tuned, write_tuned
 from gaitsim.simulation.run import Simulator
-from gaitsim.spec.document import parse
+from gaitsim.text.document import parse
 from gaitsim.spec.resolve import resolve
 from gaitsim.units import known_units, parse_unit, with_unit
 

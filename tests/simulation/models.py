@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from pathlib import Path
 
+from gaitsim.components.find import Library, library_folders, shipped_folder
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, library_folders, shipped_folder
 from gaitsim.simulation.run import Mode, Simulator
-from gaitsim.spec.document import parse
 from gaitsim.spec.inheritance import override
 from gaitsim.spec.resolve import read_spec, resolve
+from gaitsim.text.document import parse
 
 ROOT = Path(__file__).resolve().parents[2]
 SPECS = sorted(p for p in (ROOT / "specs").glob("*.yaml") if not p.stem.endswith(".tuned"))

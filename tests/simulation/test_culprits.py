@@ -7,11 +7,11 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.parts.find import Library, shipped_folder, shown
+from gaitsim.components.find import Library, shipped_folder, shown
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
-from gaitsim.spec.document import parse
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse
 
 from .models import OWN
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.parts.find import Library
-from gaitsim.parts.primitive import Primitive
+from gaitsim.components.find import Library
+from gaitsim.components.primitive import Primitive
 from gaitsim.simulation.curves import graphs
 
 _BENT = '''\

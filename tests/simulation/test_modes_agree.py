@@ -16,7 +16,7 @@ from gaitsim.simulation.run import Simulator
 from .models import HOPPER, OWN, ROOT, SPECS, Settings, model, simulator
 
 FALL = f"{-math.sqrt(2 * 9.81 * 0.163)!r} m/s"
-# In the fast set, and how long; the others differ from these in components, whose kernels tests/parts compares.
+# In the fast set, and how long; the others differ from these in components, whose kernels tests/components compares.
 FAST = {
     "pendulum_pid": "1 s",
     "hopping_geyer2003": "1 s",

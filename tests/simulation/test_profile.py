@@ -6,13 +6,13 @@ import numpy as np
 import pytest
 
 from gaitsim.compiler.program import Program
+from gaitsim.components.find import Library, shipped_folder
 from gaitsim.errors import SimulationFailed
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, shipped_folder
 from gaitsim.simulation.profile import LOOP, Profile, profile
 from gaitsim.simulation.rapid import Rapid
-from gaitsim.spec.document import parse
 from gaitsim.spec.resolve import resolve
+from gaitsim.text.document import parse
 
 SLOW = '''\
 import math

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from gaitsim.errors import ExitCode, InvalidSpec, Mark, Usage
-from gaitsim.spec.document import Mapping, parse, plain
 from gaitsim.spec.inheritance import merged, override, split_setting, with_parents
+from gaitsim.text.document import Mapping, parse, plain
 
 WALK = """\
 gaitsim: 1

@@ -8,9 +8,9 @@ from typing import Any
 import jsonschema
 import pytest
 
-from gaitsim.parts.find import Library, library_folders
-from gaitsim.spec.document import parse, plain, read
+from gaitsim.components.find import Library, library_folders
 from gaitsim.spec.json_schema import spec_schema
+from gaitsim.text.document import parse, plain, read
 
 SPECS = sorted((Path(__file__).parents[2] / "specs").glob("*.yaml"))
 SPECS = [path for path in SPECS if not path.name.endswith(".tuned.yaml")]

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
+from gaitsim.components.find import Library, library_folders
 from gaitsim.errors import GaitsimError
 from gaitsim.model import Model
-from gaitsim.parts.find import Library, library_folders
 from gaitsim.spec.resolve import read_spec, resolve
 
 SPEC = """

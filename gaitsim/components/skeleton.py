@@ -6,11 +6,11 @@ import keyword
 import re
 from pathlib import Path
 
+from gaitsim.components.composite import Composite
+from gaitsim.components.contract import read_contract
+from gaitsim.components.find import KIND, SKELETON, Library, shown
 from gaitsim.errors import Usage, did_you_mean
-from gaitsim.parts.composite import Composite
-from gaitsim.parts.contract import read_contract
-from gaitsim.parts.find import KIND, SKELETON, Library, shown
-from gaitsim.spec.document import parse, plain
+from gaitsim.text.document import parse, plain
 
 _CLASS = re.compile(r"^class \w+\(", re.MULTILINE)
 _TEST = '''"""{reference} on plain numbers, without a model around it."""
@@ -18,8 +18,8 @@ _TEST = '''"""{reference} on plain numbers, without a model around it."""
 from pathlib import Path
 
 import numpy as np
-from gaitsim.parts.find import Library, shipped_folder
-from gaitsim.parts.review import review
+from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.review import review
 from gaitsim.simulation.curves import graphs
 from gaitsim.simulation.trial import Trial
 

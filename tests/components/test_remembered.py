@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.parts import audit, audited, load
-from gaitsim.parts.find import shipped_folder
-from gaitsim.parts.primitive import Primitive
+from gaitsim.components import load
+from gaitsim.components.checks import audit, audited
+from gaitsim.components.find import shipped_folder
+from gaitsim.components.primitive import Primitive
 
 MUSCLE = shipped_folder() / "muscle" / "geyer2003.py"
 

@@ -11,13 +11,13 @@ from pathlib import Path
 from typing import Any
 
 from gaitsim.component import Component, Input, Link, Output, Parameter, Part
+from gaitsim.components.checks.audited import remember, sound_dependencies
+from gaitsim.components.checks.check import check_names, declaration_marks, parse
+from gaitsim.components.checks.dependency import output_dependencies
+from gaitsim.components.ieee import ieee_math
+from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Fault, InvalidComponent, Mark, did_you_mean
-from gaitsim.parts.audited import remember, sound_dependencies
-from gaitsim.parts.check import check_names, declaration_marks, parse
-from gaitsim.parts.dependency import output_dependencies
-from gaitsim.parts.ieee import ieee_math
-from gaitsim.parts.primitive import Primitive
-from gaitsim.spec.expression import BadExpression, parse_expression
+from gaitsim.text.expression import BadExpression, parse_expression
 
 FUNCTIONS = ("start", "output", "update", "finish", "build")
 
@@ -54,7 +54,7 @@ def load_primitive(reference: str, path: Path, shown: str, text: str) -> Primiti
 
 def _faults(source: str, tree: ast.Module, cls: type[Component], shown: str) -> Sequence[Fault]:
     """What is wrong in a file that Python could run: the first kind of mistakes that there is."""
-    from gaitsim.parts.audit import audit
+    from gaitsim.components.checks.audit import audit
 
     lines = source.splitlines()
     return (

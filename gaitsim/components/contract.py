@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+from gaitsim.components.checks.check import declaration_marks, parse
+from gaitsim.components.composite import ComponentFile, Composite
 from gaitsim.errors import Fault, Faults, Mark
-from gaitsim.parts.check import declaration_marks, parse
-from gaitsim.parts.composite import ComponentFile, Composite
-from gaitsim.spec.document import Mapping, Node, plain
-from gaitsim.spec.document import parse as parse_document
-from gaitsim.spec.quantity import said, unknown_unit
-from gaitsim.spec.spelling import respelled
+from gaitsim.text.document import Mapping, Node, plain
+from gaitsim.text.document import parse as parse_document
+from gaitsim.text.quantity import said, unknown_unit
+from gaitsim.text.spelling import respelled
 from gaitsim.units import UnknownUnit, parse_unit
 
 _SECTIONS = ("inputs", "outputs", "parameters", "metrics")

@@ -13,7 +13,7 @@ from typing import Any, Union
 import yaml
 
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, did_you_mean
-from gaitsim.spec.syntax import DEPTH_LIMIT, NO_ANCHORS, ONE_DOCUMENT, TOO_DEEP, explained
+from gaitsim.text.syntax import DEPTH_LIMIT, NO_ANCHORS, ONE_DOCUMENT, TOO_DEEP, explained
 
 SIZE_LIMIT = 5_000_000
 

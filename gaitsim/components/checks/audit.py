@@ -18,9 +18,9 @@ from types import FrameType, SimpleNamespace
 from typing import Any
 
 from gaitsim.component import Component, Input, Metric, Output, Parameter, Series, State
+from gaitsim.components.checks.check import SIGNATURES, class_functions, parse, place
+from gaitsim.components.checks.declaration import unit_rule
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark
-from gaitsim.parts.check import SIGNATURES, class_functions, parse, place
-from gaitsim.parts.declaration import unit_rule
 from gaitsim.units import Dimension, Unit, UnknownUnit, parse_unit
 
 _DECISIONS = 40  # on one path; only a loop that counts in plain numbers comes near

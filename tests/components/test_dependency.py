@@ -7,7 +7,7 @@ import ast
 import pytest
 
 from gaitsim.component import Declaration, Input, Output, Parameter, State
-from gaitsim.parts.dependency import output_dependencies
+from gaitsim.components.checks.dependency import output_dependencies
 
 DECLARED: dict[str, Declaration] = {
     "k": Parameter("1", ""),

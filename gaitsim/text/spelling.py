@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from gaitsim.errors import Faults, did_you_mean, nearest
-from gaitsim.spec.document import Mapping, Node
+from gaitsim.text.document import Mapping, Node
 
 
 def respelled(

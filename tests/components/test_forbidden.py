@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
+from gaitsim.components.checks.check import parse
 from gaitsim.errors import InvalidComponent
-from gaitsim.parts.check import parse
 
 HEAD = "from gaitsim.component import Component\n\n\nclass Brake(Component):\n    pass\n\n\n"
 WORDS = {

@@ -22,11 +22,11 @@ from gaitsim.component import (
     Series,
     State,
 )
+from gaitsim.components.checks.build import build_faults, placed
+from gaitsim.components.checks.curve import curve_faults
+from gaitsim.components.checks.declaration import field_faults, unknown_fields
+from gaitsim.components.checks.start_range import range_faults
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark, did_you_mean, nearest
-from gaitsim.parts.build import build_faults, placed
-from gaitsim.parts.curve import curve_faults
-from gaitsim.parts.declaration import field_faults, unknown_fields
-from gaitsim.parts.start_range import range_faults
 
 SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "start": ("p", "u", "x"),

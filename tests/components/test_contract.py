@@ -9,11 +9,11 @@ import numpy as np
 import pytest
 
 from gaitsim.compiler.kernel import address_of
-from gaitsim.parts.audit import audit
-from gaitsim.parts.bibliography import entries
-from gaitsim.parts.composite import Composite
-from gaitsim.parts.find import Library
-from gaitsim.parts.review import review
+from gaitsim.components.bibliography import entries
+from gaitsim.components.checks.audit import audit
+from gaitsim.components.composite import Composite
+from gaitsim.components.find import Library
+from gaitsim.components.review import review
 from gaitsim.simulation.curves import graphs, why_no_curves
 
 from .calls import FILES, FOLDER, component, reference_of, stages

@@ -19,8 +19,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from gaitsim.components.load import as_lines
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark
-from gaitsim.parts.load import as_lines
 from gaitsim.units import UnknownUnit, parse_unit
 
 Floats = NDArray[np.float64]

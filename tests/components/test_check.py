@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from gaitsim.component import Component
+from gaitsim.components.checks.check import check_names, parse
 from gaitsim.errors import InvalidComponent
-from gaitsim.parts.check import check_names, parse
 
 IMPORT = "import math\nfrom gaitsim.component import *\n"
 HEAD = """import math

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from gaitsim.component import Parameter
+from gaitsim.components.load import as_lines, digest_of
+from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Faults, Mark
-from gaitsim.parts.load import as_lines, digest_of
-from gaitsim.parts.primitive import Primitive
-from gaitsim.spec.document import Mapping, Node, Scalar, Sequence, parse
-from gaitsim.spec.quantity import number_with_unit, said, unknown_unit
-from gaitsim.spec.spelling import respelled
+from gaitsim.text.document import Mapping, Node, Scalar, Sequence, parse
+from gaitsim.text.quantity import number_with_unit, said, unknown_unit
+from gaitsim.text.spelling import respelled
 from gaitsim.units import UnknownUnit, parse_unit
 
 _SECTIONS = ("about", "parameters", "attachments", "frames", "inputs", "outputs", "parts")

@@ -8,10 +8,10 @@ from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
-from gaitsim.parts.composite import Composite
-from gaitsim.parts.find import Library, shipped_folder
-from gaitsim.parts.load import function_of
-from gaitsim.parts.primitive import Primitive
+from gaitsim.components.composite import Composite
+from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.load import function_of
+from gaitsim.components.primitive import Primitive
 from gaitsim.simulation.run import Mode
 from gaitsim.simulation.trial import Trial as Tables
 from gaitsim.simulation.view import View

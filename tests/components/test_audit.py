@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gaitsim.parts.audit import Audit, audit
+from gaitsim.components.checks.audit import Audit, audit
 
 MUSCLE = '''\
 """A Hill-type muscle."""

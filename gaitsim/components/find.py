@@ -6,12 +6,12 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from gaitsim.components.composite import ComponentFile, load_composite
+from gaitsim.components.contract import kind_faults
+from gaitsim.components.load import as_lines, digest_of, load_primitive
+from gaitsim.components.table import Table, load_table
 from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean, nearest
-from gaitsim.parts.composite import ComponentFile, load_composite
-from gaitsim.parts.contract import kind_faults
-from gaitsim.parts.load import as_lines, digest_of, load_primitive
-from gaitsim.parts.table import Table, load_table
-from gaitsim.spec.document import text_of
+from gaitsim.text.document import text_of
 
 _LOADERS: dict[str, Callable[[str, Path, str, str], ComponentFile]] = {
     ".py": load_primitive,

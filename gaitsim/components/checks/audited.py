@@ -12,7 +12,7 @@ from pathlib import Path
 import gaitsim
 from gaitsim.cache import keep, kept
 
-_RULES = ("component.py", "units.py", "parts/*.py", "spec/expression.py")
+_RULES = ("component.py", "units.py", "components/*.py", "components/checks/*.py", "text/expression.py")
 
 
 def sound_dependencies(source: str) -> dict[str, frozenset[str]] | None:

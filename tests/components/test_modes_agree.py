@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gaitsim.component import Parameter
-from gaitsim.parts.primitive import Primitive
+from gaitsim.components.primitive import Primitive
 from gaitsim.units import parse_unit
 
 from .calls import FILES, Tables, primitive, reference_of, stages

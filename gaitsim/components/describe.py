@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import fields
 from typing import Any
 
-from gaitsim.parts.composite import ComponentFile, Composite
-from gaitsim.parts.find import shown
-from gaitsim.parts.primitive import Primitive
+from gaitsim.components.composite import ComponentFile, Composite
+from gaitsim.components.find import shown
+from gaitsim.components.primitive import Primitive
 
 _SECTIONS = (
     "parameters",

@@ -6,16 +6,16 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 
 from gaitsim.component import Attachment, Declaration, Frame, Input, Metric, Option, Output, Parameter, Points, State
+from gaitsim.components.bibliography import FILE, keys_of, read_bibliography, unknown_key
+from gaitsim.components.checks.audit import audit
+from gaitsim.components.checks.check import declaration_marks, parse
+from gaitsim.components.composite import Composite
+from gaitsim.components.find import Library, is_component, shown
+from gaitsim.components.ieee import ieee_math
+from gaitsim.components.load import component_class, execute
+from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Fault, GaitsimError, Mark
-from gaitsim.parts.audit import audit
-from gaitsim.parts.bibliography import FILE, keys_of, read_bibliography, unknown_key
-from gaitsim.parts.check import declaration_marks, parse
-from gaitsim.parts.composite import Composite
-from gaitsim.parts.find import Library, is_component, shown
-from gaitsim.parts.ieee import ieee_math
-from gaitsim.parts.load import component_class, execute
-from gaitsim.parts.primitive import Primitive
-from gaitsim.spec.document import Mapping as Node
+from gaitsim.text.document import Mapping as Node
 
 _DOCUMENTED = Parameter | Input | Output | State | Metric | Attachment | Frame | Points | Option
 

@@ -6,7 +6,7 @@ import math
 import re
 
 from gaitsim.errors import Faults, nearest
-from gaitsim.spec.document import Mapping, Node, Scalar, Sequence
+from gaitsim.text.document import Mapping, Node, Scalar, Sequence
 from gaitsim.units import Quantity, Unit, UnknownUnit, known_units, parse_quantity, parse_unit
 
 _EXAMPLES = {

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from functools import cache
 
 from gaitsim.component import Declaration, End, Input, Output, Parameter, State
-from gaitsim.spec.expression import BadExpression, Expression, parse_expression
+from gaitsim.text.expression import BadExpression, Expression, parse_expression
 from gaitsim.units import parse_unit, scaled
 
 Ranged = Input | Output | State

@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterable, Mapping
 
 from gaitsim.component import Declaration, Input, Output
-from gaitsim.parts.check import SIGNATURES, class_functions
+from gaitsim.components.checks.check import SIGNATURES, class_functions
 
 Carried = frozenset[str]
 _NONE: Carried = frozenset()

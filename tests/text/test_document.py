@@ -13,8 +13,8 @@ import pytest
 import yaml
 
 from gaitsim.errors import ExitCode, InvalidSpec, Mark
-from gaitsim.spec import document
-from gaitsim.spec.document import Mapping, Scalar, dump, parse, parse_value, plain, read
+from gaitsim.text import document
+from gaitsim.text.document import Mapping, Scalar, dump, parse, parse_value, plain, read
 
 WRITTEN: dict[str, Any] = {
     "null": None, "~": None, "": None, "Null": "Null",

@@ -1,0 +1,1 @@
+"""Component files of a library: found, loaded, and held against their kind."""

@@ -1,1 +1,0 @@
-"""Finding, loading and checking component files."""

@@ -1,0 +1,1 @@
+"""Text with a place: documents, quantities, expressions, and hints on spelling."""
