@@ -74,7 +74,7 @@ class Report:
         origin = f"Made by `make bench-page` with gaitsim {__version__}, commit {commit()}, on this machine: {made}."
         lines = ["# Benchmarks", "", origin]
         for section in self.sections:
-            heads = ["", *(f"{name} ({unit})" for name, unit in section.columns.items())]
+            heads = ["", *(_head(name, unit) for name, unit in section.columns.items())]
             lines += ["", f"## {section.title}", "", section.about, "", _cells(heads), _cells(["---"] * len(heads))]
             for name, values in self.rows[section.title].items():
                 lines.append(_cells([name, *(shown(values.get(column)) for column in section.columns)]))
@@ -111,6 +111,10 @@ def shown(value: float | None) -> str:
     if value is None:
         return "-"
     return f"{value:,.0f}" if abs(value) >= 100 else f"{value:.3g}"
+
+
+def _head(name: str, unit: str) -> str:
+    return name if unit == "1" else f"{name} ({unit})"
 
 
 def _ratio(now: float | None, before: float | None) -> str:
