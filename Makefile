@@ -9,7 +9,7 @@ PYTHONS := $(PYTHON) python3.13 python3.12 python3.11 python3
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 export GAITSIM_CACHE := $(CURDIR)/.cache/gaitsim
 
-.PHONY: help setup run test test-all check bench bench-page muscles walker clean
+.PHONY: help setup run test test-all check docs bench bench-page muscles walker clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /make \1	/p' Makefile
 
@@ -30,6 +30,9 @@ test: check ## check, then the fast tests: what must hold before a change is mer
 test-all: check ## check, then all tests, with long physics and killed searches: before a release
 	$(TESTS)
 
+docs: $(READY) ## build the documentation in site/; a broken link is an error
+	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet
+
 bench: $(READY) ## time steps, whole commands, growing models, and workers (four minutes)
 	.venv/bin/python bench/bench.py $(BENCH)
 
@@ -43,8 +46,8 @@ walker: $(READY) ## what the walker takes: contacts, first walks of seeds, swaps
 	.venv/bin/python bench/walker.py
 
 clean: ## remove .venv and all caches; results/ stays
-	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache bench/build
-	find gaitsim library tests bench specs -name __pycache__ -prune -exec rm -rf {} +
+	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache bench/build site
+	find gaitsim library tests bench specs docs -name __pycache__ -prune -exec rm -rf {} +
 
 # The stamp is written last. -qq leaves pip's errors visible. An active venv is asked for the
 # interpreter behind it, as it may be the very .venv that is to be replaced.

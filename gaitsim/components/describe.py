@@ -8,6 +8,7 @@ from typing import Any
 from gaitsim.components.composite import ComponentFile, Composite
 from gaitsim.components.find import shown
 from gaitsim.components.primitive import Primitive
+from gaitsim.text.document import plain
 
 _SECTIONS = (
     "parameters",
@@ -48,13 +49,22 @@ def _primitive(component: Primitive) -> dict[str, Any]:
 
 def _composite(component: Composite) -> dict[str, Any]:
     return {
-        "parameters": {name: _declaration(p) for name, p in component.parameters.items()},
+        "parameters": {name: _masked(component, name) for name in component.parameters},
         "attachments": {name: {"doc": doc} for name, doc in component.attachments.items()},
         "frames": {name: {"is": target} for name, target in component.frames.items()},
         "inputs": {name: {"is": list(targets)} for name, targets in component.inputs.items()},
         "outputs": {name: {"is": target} for name, target in component.outputs.items()},
         "parts": {name: {"use": _use(node)} for name, node in component.parts.entries.items()},
     }
+
+
+def _masked(component: Composite, name: str) -> dict[str, Any]:
+    """A parameter of a composite; its default is as in the file: a quantity or an expression."""
+    node = component.defaults.get(name)
+    found = plain(node) if node is not None else None
+    default, source = (found.get("value"), found.get("source", "")) if isinstance(found, dict) else (found, "")
+    declared = _declaration(component.parameters[name])
+    return declared | {"default": default, "source": declared["source"] or source}
 
 
 def _use(node: Any) -> str:

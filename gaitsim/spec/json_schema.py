@@ -61,7 +61,8 @@ def spec_schema(library: Library) -> dict[str, Any]:
     definitions["part"] = entry
     for section in ("parts", "measures"):
         schema["properties"][section]["additionalProperties"] = {"$ref": "#/$defs/part"}
-    schema["properties"]["objective"] = {"$ref": "#/$defs/part"}
+    about = schema["properties"]["objective"]["description"]
+    schema["properties"]["objective"] = {"$ref": "#/$defs/part", "description": about}
     # What a spec lacks may stand in the one that it extends.
     own = {"required": schema.pop("required")}
     own["properties"] = {"simulate": {"required": definitions["SimulateSection"].pop("required")}}
