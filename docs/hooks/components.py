@@ -14,7 +14,7 @@ import yaml
 from parts_of_text import Page, code, escaped, number, paragraphs, table
 from references import linked
 
-from gaitsim.analysis.curves import draw
+from gaitsim.analysis.models.curves import draw
 from gaitsim.components.composite import ComponentFile
 from gaitsim.components.describe import described
 from gaitsim.components.find import KIND, Library, shipped_folder

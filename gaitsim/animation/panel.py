@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gaitsim.analysis.style import PALETTE, shown_unit
+from gaitsim.analysis.drawings.style import PALETTE, shown_unit
 from gaitsim.animation.lettering import Words, write
 from gaitsim.model import Signal
 from gaitsim.simulation.outcome import Trajectory

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import mujoco
 import numpy as np
 
-from gaitsim.analysis.signals import matching
+from gaitsim.analysis.signals.pattern import matching
 from gaitsim.animation.stage import Stage
 from gaitsim.model import Model, Signal, recorded_signals
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gaitsim.analysis.replay import Replay
+from gaitsim.analysis.replays.replay import Replay
 from gaitsim.animation import colours, scopes
 from gaitsim.animation.camera import Views, follow
 from gaitsim.animation.canvas import Canvas

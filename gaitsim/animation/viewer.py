@@ -10,7 +10,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gaitsim.analysis.replay import Replay
+from gaitsim.analysis.replays.replay import Replay
 from gaitsim.animation import overlay
 from gaitsim.animation.camera import FIELD, Views, follow
 from gaitsim.animation.opengl import has_display

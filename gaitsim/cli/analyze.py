@@ -16,8 +16,8 @@ from gaitsim.cli.options import Json, Libraries, Set, Trust, seconds_of
 from gaitsim.errors import GaitsimError, SimulationFailed, Usage
 
 if TYPE_CHECKING:
-    from gaitsim.analysis.drawing import Drawing
-    from gaitsim.analysis.replay import Replay
+    from gaitsim.analysis.drawings.drawing import Drawing
+    from gaitsim.analysis.replays.replay import Replay
     from gaitsim.animation.video import VideoOptions
     from gaitsim.study.products import Products
     from gaitsim.study.source import Source
@@ -101,7 +101,7 @@ def analyze(
 
     gaitsim analyze results/2026-11-22-hopping-3f9c --only --export sto --return-map guide.position
     """
-    from gaitsim.analysis.figures import missing
+    from gaitsim.analysis.report.figures import missing
     from gaitsim.study.products import Products, default_figures
 
     if against is not None and not plot:
@@ -202,7 +202,8 @@ def _asked(
     replays: list[Replay], plot: list[str], against: str | None, return_maps: list[str]
 ) -> list[Callable[[], list[Drawing]]]:
     """What --plot and --return-map draw; --plot of a muscle is its own figures."""
-    from gaitsim.analysis import muscles, plots
+    from gaitsim.analysis.muscles import figures as muscles
+    from gaitsim.analysis.signals import plots
 
     def map_of(text: str) -> list[Drawing]:
         return [plots.return_map(replays, text)]
@@ -220,7 +221,7 @@ def _asked(
 
 def _said_lacking(replays: list[Replay], words: list[str]) -> None:
     """Say which runs lack a signal that others have."""
-    from gaitsim.analysis.plots import lacking
+    from gaitsim.analysis.signals.plots import lacking
 
     for text in words:
         without = lacking(replays, text)
@@ -291,7 +292,7 @@ def _tell(replays: list[Replay], products: Products, json: bool) -> None:
 
 def _give_gait(replays: list[Replay]) -> None:
     """What the legs of each walker do, and how that compares with people."""
-    from gaitsim.analysis.gait_numbers import gait_table, norms_table
+    from gaitsim.analysis.gait.numbers import gait_table, norms_table
 
     for replay in replays:
         title = replay.label if len(replays) > 1 else ""
@@ -301,8 +302,8 @@ def _give_gait(replays: list[Replay]) -> None:
 
 
 def _data(replay: Replay) -> dict[str, Any]:
-    from gaitsim.analysis.gait_norms import norm_numbers
-    from gaitsim.analysis.gait_numbers import gait_numbers
+    from gaitsim.analysis.gait.comparison import norm_numbers
+    from gaitsim.analysis.gait.numbers import gait_numbers
 
     outcome = replay.outcome
     return {

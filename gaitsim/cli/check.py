@@ -40,7 +40,7 @@ def check(
 
     gaitsim check specs/hopping_leg_mass.yaml --convergence
     """
-    from gaitsim.analysis.moment_arms import draw, table, warnings
+    from gaitsim.analysis.models.moment_arms import draw, table, warnings
     from gaitsim.cli.convergence import convergence_of, data, give
     from gaitsim.cluster.episodes import episode_models
     from gaitsim.simulation.moment_arms import moment_arms

@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 from gaitsim.cli import console
 
 if TYPE_CHECKING:
-    from gaitsim.analysis.step_convergence import StepConvergence
+    from gaitsim.analysis.models.step_convergence import StepConvergence
     from gaitsim.model import Model
 
 
 def convergence_of(models: Sequence[Model]) -> list[StepConvergence]:
     """Each model at its step, a half and a quarter; failed runs are told."""
-    from gaitsim.analysis.step_convergence import step_convergence
+    from gaitsim.analysis.models.step_convergence import step_convergence
 
     found = []
     for model in models:

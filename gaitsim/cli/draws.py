@@ -13,7 +13,7 @@ from gaitsim.text.quantity import in_plain_letters
 from gaitsim.units import UnknownUnit, parse_quantity
 
 if TYPE_CHECKING:
-    from gaitsim.analysis.draws import Summary
+    from gaitsim.analysis.searches.draws import Summary
     from gaitsim.model import Model
     from gaitsim.optimization.draws import Draws
     from gaitsim.simulation.outcome import Outcome
@@ -110,7 +110,7 @@ def _row(each: Summary, units: Mapping[str, str], counted: bool) -> tuple[str, .
 
 
 def _summaries(outcomes: Sequence[Outcome]) -> list[Summary]:
-    from gaitsim.analysis.draws import summaries
+    from gaitsim.analysis.searches.draws import summaries
 
     scores = [{} if outcome.score is None else {"score": outcome.score} for outcome in outcomes]
     return [*summaries([outcome.metrics for outcome in outcomes]), *summaries(scores)]

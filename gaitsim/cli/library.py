@@ -197,7 +197,7 @@ def _of_native_code(reference: str, parts: Library) -> list[Fault]:
 
 def _drawn(component: ComponentFile, settings: list[str], folder: Path) -> Path | None:
     """The picture of a component's curves, or a line on why there is none."""
-    from gaitsim.analysis.curves import draw
+    from gaitsim.analysis.models.curves import draw
     from gaitsim.results.store import CannotSave
     from gaitsim.simulation.curves import graphs, why_no_curves
 

@@ -53,8 +53,8 @@ def profile(
     costs = found.by_component() if components else found.costs
     picture = None
     if plot:
-        from gaitsim.analysis.costs import cost_figure
-        from gaitsim.analysis.drawing import save
+        from gaitsim.analysis.drawings.drawing import save
+        from gaitsim.analysis.models.costs import cost_figure
 
         (picture,) = save([cost_figure(costs, found, source.name)], folder)
     if json:

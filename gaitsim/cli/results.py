@@ -44,7 +44,7 @@ def show_result(folder: Folder, json: Json = False) -> None:
 
     Example: gaitsim results show results/2026-11-22-hopping-3f9c
     """
-    from gaitsim.analysis.convergence import tuned_in
+    from gaitsim.analysis.searches.convergence import tuned_in
     from gaitsim.results.manifest import read_manifest
 
     manifest = read_manifest(folder)

@@ -36,7 +36,7 @@ def view(
 
     if not speed > 0:
         raise Usage(f"--speed {speed:g}: seconds of motion in a second, above 0, such as 0.25.")
-    from gaitsim.analysis.replay import replayed
+    from gaitsim.analysis.replays.replay import replayed
     from gaitsim.animation import viewer
 
     source = open_source(path, settings, library, tuned=not start, trusted=trust, candidate=candidate)

@@ -14,8 +14,8 @@ from gaitsim.errors import ExitCode, GaitsimError
 from gaitsim.results.store import CannotSave
 
 if TYPE_CHECKING:
-    from gaitsim.analysis.drawing import Drawing, Figures
-    from gaitsim.analysis.replay import Replay
+    from gaitsim.analysis.drawings.drawing import Drawing, Figures
+    from gaitsim.analysis.replays.replay import Replay
     from gaitsim.animation.video import VideoOptions
 
 T = TypeVar("T")
@@ -75,7 +75,7 @@ class Products:
 
     def draw(self, makers: Sequence[Callable[[], list[Drawing]]], formats: Sequence[str]) -> None:
         """Make figures and write them, each under a name of its own."""
-        from gaitsim.analysis.drawing import save
+        from gaitsim.analysis.drawings.drawing import save
 
         taken: set[str] = set()
         hear = console.progress("figures", self.quiet)
@@ -111,7 +111,7 @@ class Products:
 
     def write_report(self, replays: Sequence[Replay]) -> None:
         """Write the page that has all of it."""
-        from gaitsim.analysis.report import write
+        from gaitsim.analysis.report.report import write
 
         path = self.folder / "report.html"
         remarks = [*self.lacks, *(str(error) for error in self.faults)]
@@ -120,8 +120,8 @@ class Products:
 
 def default_figures(replays: Sequence[Replay]) -> list[Callable[[], list[Drawing]]]:
     """What is drawn of any result: several runs over each other, and the figures of each."""
-    from gaitsim.analysis.figures import FIGURES
-    from gaitsim.analysis.plots import overview
+    from gaitsim.analysis.report.figures import FIGURES
+    from gaitsim.analysis.signals.plots import overview
 
     def of_run(figures: Figures, replay: Replay) -> Callable[[], list[Drawing]]:
         return lambda: [_of_run(drawing, replay, len(replays) > 1) for drawing in figures(replay)]
@@ -160,7 +160,7 @@ def _write(replay: Replay, path: Path, every: float | None) -> Path:
 
         write_csv(path, replay.trajectory)
     else:
-        from gaitsim.analysis.replay import dataset
+        from gaitsim.analysis.replays.replay import dataset
         from gaitsim.exchange.labelled import write_netcdf
 
         write_netcdf(path, dataset(replay))

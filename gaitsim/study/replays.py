@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
-from gaitsim.analysis.replay import Replay, replayed
+from gaitsim.analysis.replays.replay import Replay, replayed
 from gaitsim.results.manifest import changed_versions
 from gaitsim.results.store import row_data
 from gaitsim.study.source import Source

@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from gaitsim.analysis.replay import Replay, dataset
+from gaitsim.analysis.replays.replay import Replay, dataset
 from gaitsim.model import Model
 from gaitsim.results.manifest import BadResult, read_manifest
 from gaitsim.study.replays import replay_of

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.analysis.replay import Replay, replayed
+from gaitsim.analysis.replays.replay import Replay, replayed
 from gaitsim.cli.main import main
 from gaitsim.study.replays import replay_of
 from gaitsim.study.source import source_of_result

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gaitsim.analysis.replay import Replay, replayed
+from gaitsim.analysis.replays.replay import Replay, replayed
 from gaitsim.components.find import Library, shipped_folder
 from gaitsim.model import Model
 from gaitsim.spec.inheritance import override

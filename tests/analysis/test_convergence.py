@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaitsim.analysis.convergence import (
+from gaitsim.analysis.searches.convergence import (
     Tuned,
     convergence_figures,
     scores_of,

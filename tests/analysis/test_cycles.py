@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaitsim.analysis.cycles import arriving, last_cycles, stance, thinned, touchdowns
+from gaitsim.analysis.replays.cycles import arriving, last_cycles, stance, thinned, touchdowns
 from tests.analysis.replays import of_spec, of_text
 
 DELAYED = """

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.analysis.draws import Summary, draws_figures, draws_of, summaries
-from gaitsim.analysis.facts import study_table
-from gaitsim.analysis.figures import FIGURES
-from gaitsim.analysis.sweep import sweep_figures
+from gaitsim.analysis.report.facts import study_table
+from gaitsim.analysis.report.figures import FIGURES
+from gaitsim.analysis.searches.draws import Summary, draws_figures, draws_of, summaries
+from gaitsim.analysis.searches.sweep import sweep_figures
 from tests.analysis.replays import command, of_result, of_spec
 from tests.simulation.models import ROOT
 

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaitsim.analysis.energies import Balance, balance, energy_figures
+from gaitsim.analysis.muscles.energies import Balance, balance, energy_figures
 from tests.analysis.replays import cut, of_spec, of_text
 
 BALL = """

@@ -8,16 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaitsim.analysis.footsteps import double_support, margin, steps, symmetry, symmetry_index
-from gaitsim.analysis.gait import gait_figures, lacking_gait, symmetry_pairs
-from gaitsim.analysis.gait_norms import followed, later, matched_moments, norm_numbers
-from gaitsim.analysis.hopping import hopping_figures
-from gaitsim.analysis.joint_moments import hidden_paths, joint_moment, joint_power
-from gaitsim.analysis.legs import Leg, mass, on_side, side_of, stands, two_legs, unsided
-from gaitsim.analysis.motion import motion_figures
-from gaitsim.analysis.muscles import figures_of, matching_muscles, muscle_figures
-from gaitsim.analysis.norms import POINTS, read_norm
-from gaitsim.analysis.replay import Replay
+from gaitsim.analysis.gait.comparison import followed, later, matched_moments, norm_numbers
+from gaitsim.analysis.gait.figures import gait_figures, lacking_gait, symmetry_pairs
+from gaitsim.analysis.gait.footsteps import double_support, margin, steps, symmetry, symmetry_index
+from gaitsim.analysis.gait.joint_moments import hidden_paths, joint_moment, joint_power
+from gaitsim.analysis.gait.legs import Leg, mass, on_side, side_of, stands, two_legs, unsided
+from gaitsim.analysis.gait.norms import POINTS, read_norm
+from gaitsim.analysis.hopping.figures import hopping_figures
+from gaitsim.analysis.muscles.figures import figures_of, matching_muscles, muscle_figures
+from gaitsim.analysis.replays.replay import Replay
+from gaitsim.analysis.signals.motion import motion_figures
 from gaitsim.components.find import Library, shipped_folder
 from tests.analysis.replays import cut, of_spec
 from tests.analysis.walking import STRIDE, TIMES, WEIGHT, Floats, extended, on_ground, phase, walk

@@ -7,12 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaitsim.analysis.gait_muscles import metabolic_power
-from gaitsim.analysis.gait_numbers import gait_numbers, gait_table, norms_table
-from gaitsim.analysis.joint_moments import joint_work
-from gaitsim.analysis.keypoints import FORWARDS, ON, POWERS, VERTICAL
-from gaitsim.analysis.legs import two_legs
-from gaitsim.analysis.report import write
+from gaitsim.analysis.gait.joint_moments import joint_work
+from gaitsim.analysis.gait.keypoints import FORWARDS, ON, POWERS, VERTICAL
+from gaitsim.analysis.gait.legs import two_legs
+from gaitsim.analysis.gait.muscles import metabolic_power
+from gaitsim.analysis.gait.numbers import gait_numbers, gait_table, norms_table
+from gaitsim.analysis.report.report import write
 from tests.analysis.replays import cut
 from tests.analysis.test_gait import like_people
 from tests.analysis.walking import STANCE, STRIDE, TIMES, WEIGHT, on_ground, phase, walk

@@ -3,8 +3,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaitsim.analysis.hopping import Dropped, Hops, dropped, hopping_figures, hops_of
-from gaitsim.analysis.replay import Replay
+from gaitsim.analysis.hopping.figures import Dropped, Hops, dropped, hopping_figures, hops_of
+from gaitsim.analysis.replays.replay import Replay
 from tests.analysis.replays import cut, of_spec, of_text
 
 GEYER = {0.05: 0.1208, 0.09: 0.1417, 0.13: 0.1552, 0.163: 0.16299, 0.2: 0.1699, 0.3: 0.1833}

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaitsim.analysis.muscles import Muscle, muscle_figures, muscles, net_work, work_done
+from gaitsim.analysis.muscles.figures import Muscle, muscle_figures, muscles, net_work, work_done
 from tests.analysis.replays import command, cut, of_spec
 from tests.simulation.models import ROOT
 
@@ -80,7 +80,7 @@ def test_a_steady_hop_costs_the_massless_leg_no_work() -> None:
 
 
 def last_hop(replay):  # type: ignore[no-untyped-def]
-    from gaitsim.analysis.cycles import last_cycles
+    from gaitsim.analysis.replays.cycles import last_cycles
 
     span = last_cycles(replay, 1)
     assert span is not None

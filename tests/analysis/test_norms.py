@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from parts.calls import metrics
 
-from gaitsim.analysis.norms import (
+from gaitsim.analysis.gait.norms import (
     Norm,
     compared,
     correlation,

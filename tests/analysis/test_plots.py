@@ -8,10 +8,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gaitsim.analysis import plots, style
-from gaitsim.analysis.drawing import Drawing, save
-from gaitsim.analysis.replay import Replay
-from gaitsim.analysis.signals import NoSuchSignal
+from gaitsim.analysis.drawings import style
+from gaitsim.analysis.drawings.drawing import Drawing, save
+from gaitsim.analysis.replays.replay import Replay
+from gaitsim.analysis.signals import plots
+from gaitsim.analysis.signals.pattern import NoSuchSignal
 
 from .swinging import replay
 

@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from gaitsim.analysis.legs import two_legs
-from gaitsim.analysis.pressure import Pressure, pressure, pressure_figures
-from gaitsim.analysis.replay import Replay
+from gaitsim.analysis.gait.legs import two_legs
+from gaitsim.analysis.gait.pressure import Pressure, pressure, pressure_figures
+from gaitsim.analysis.replays.replay import Replay
 from tests.analysis.walking import STANCE, WEIGHT, Floats, on_ground, phase, walk
 
 STANDS = np.linspace(0, 1, 101)

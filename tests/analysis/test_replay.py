@@ -28,7 +28,7 @@ def test_states_are_recorded_in_step_with_outputs() -> None:
 def test_both_modes_record_the_same_states() -> None:
     from pathlib import Path
 
-    from gaitsim.analysis.replay import replayed
+    from gaitsim.analysis.replays.replay import replayed
 
     made = model(("simulate.duration", "0.3 s"))
     rapid, normal = (replayed(made, Path("x"), mode=mode).trajectory for mode in ("rapid", "normal"))

@@ -9,13 +9,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaitsim.analysis import facts
-from gaitsim.analysis.drawing import Drawing
-from gaitsim.analysis.figures import FIGURES, missing
-from gaitsim.analysis.motion import motion_figures
-from gaitsim.analysis.replay import Replay
-from gaitsim.analysis.report import EMBEDDED, write
-from gaitsim.analysis.style import panels
+from gaitsim.analysis.drawings.drawing import Drawing
+from gaitsim.analysis.drawings.style import panels
+from gaitsim.analysis.replays.replay import Replay
+from gaitsim.analysis.report import facts
+from gaitsim.analysis.report.figures import FIGURES, missing
+from gaitsim.analysis.report.report import EMBEDDED, write
+from gaitsim.analysis.signals.motion import motion_figures
 from gaitsim.simulation.outcome import Outcome
 from tests.analysis.replays import command, cut, of_result, of_spec
 from tests.simulation.models import ROOT

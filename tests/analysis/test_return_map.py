@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaitsim.analysis.return_map import fixed_point, maxima
+from gaitsim.analysis.signals.return_map import fixed_point, maxima
 
 
 def test_maxima_of_a_sine() -> None:

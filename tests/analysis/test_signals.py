@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gaitsim.analysis.signals import NoSuchSignal, matching, only
+from gaitsim.analysis.signals.pattern import NoSuchSignal, matching, only
 from gaitsim.model import Model, recorded_signals
 
 from .swinging import model

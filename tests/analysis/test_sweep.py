@@ -6,9 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaitsim.analysis.facts import study_table
-from gaitsim.analysis.reference import metric_over
-from gaitsim.analysis.sweep import places, study_in, sweep_figures
+from gaitsim.analysis.replays.reference import metric_over
+from gaitsim.analysis.report.facts import study_table
+from gaitsim.analysis.searches.sweep import places, study_in, sweep_figures
 from gaitsim.results.manifest import BadResult
 from tests.analysis.replays import command, of_result, of_spec
 from tests.simulation.models import ROOT

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from gaitsim.analysis.replay import Replay
+from gaitsim.analysis.replays.replay import Replay
 from gaitsim.model import Model, recorded_signals
 from gaitsim.simulation.outcome import Outcome, Trajectory
 from tests.simulation.models import ROOT

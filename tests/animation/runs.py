@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import cache
 from pathlib import Path
 
-from gaitsim.analysis.replay import Replay, replayed
+from gaitsim.analysis.replays.replay import Replay, replayed
 from tests.simulation.models import ROOT, model, written
 
 

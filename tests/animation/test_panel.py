@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from gaitsim.analysis.signals import NoSuchSignal
+from gaitsim.analysis.signals.pattern import NoSuchSignal
 from gaitsim.animation.panel import Panel, _shown
 from gaitsim.animation.scopes import chosen, usual
 from gaitsim.animation.stage import stage_of

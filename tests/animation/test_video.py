@@ -14,7 +14,7 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image
 
-from gaitsim.analysis.replay import Replay
+from gaitsim.analysis.replays.replay import Replay
 from gaitsim.animation import CannotAnimate
 from gaitsim.animation.video import VideoOptions, read_size, record
 from gaitsim.errors import GaitsimError, Usage

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.analysis.step_convergence import Change
+from gaitsim.analysis.models.step_convergence import Change
 
 from .commands import gaitsim
 

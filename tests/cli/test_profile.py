@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.analysis.costs import cost_figure
+from gaitsim.analysis.models.costs import cost_figure
 from gaitsim.simulation.profile import Cost, Profile
 
 from .commands import gaitsim

@@ -14,7 +14,7 @@ from optimization.searches import Ended
 from results.foreign import BOUNDS, SAID, make
 
 import gaitsim
-from gaitsim.analysis.facts import tuned_table
+from gaitsim.analysis.report.facts import tuned_table
 from gaitsim.cli.main import main
 from gaitsim.units import known_units, parse_quantity, parse_unit
 

@@ -1,0 +1,45 @@
+"""A picture with its words: figure, file name, title, caption."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from gaitsim.analysis.replays.replay import Replay
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """One figure. name: of its file, without ending. caption: what is seen, with its units, as one paragraph."""
+
+    name: str
+    title: str
+    caption: str
+    figure: Figure = field(repr=False)
+
+
+# Gives the figures that a run's parts allow; none if it is not about such a model.
+Figures = Callable[["Replay"], list[Drawing]]
+
+
+def save(drawings: Iterable[Drawing], folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
+    """Write each drawing as files of the formats (png, svg, pdf); their paths. Errors: OSError."""
+    folder.mkdir(parents=True, exist_ok=True)
+    paths = []
+    for drawing in drawings:
+        for ending in formats:
+            path = folder / f"{drawing.name}.{ending}"
+            draft = path.with_name(f"{path.name}.partial")
+            try:
+                drawing.figure.savefig(draft, format=ending)
+                draft.replace(path)
+            except OSError:
+                draft.unlink(missing_ok=True)
+                raise
+            paths.append(path)
+    return paths

@@ -1,0 +1,1 @@
+"""Figures and numbers of a walk: legs, footsteps, joints, and what people do."""

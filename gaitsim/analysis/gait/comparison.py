@@ -1,0 +1,171 @@
+"""Which signals of a walker people have too, and how they compare."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from gaitsim.analysis.gait.joint_moments import joint_moment
+from gaitsim.analysis.gait.legs import SIDES, Cycle, Leg, mass, on_side, part_at, two_legs
+from gaitsim.analysis.gait.norms import WALKING, Comparison, Norm, compared, read_norm
+from gaitsim.analysis.replays.cycles import Floats
+from gaitsim.analysis.replays.replay import Replay
+from gaitsim.components.find import Library, library_folders
+from gaitsim.errors import InvalidSpec
+from gaitsim.model import Model, Part
+from gaitsim.results.bundle import COMPONENTS
+from gaitsim.units import parse_unit
+
+_GAIT_CURVE = "measure/gait_curve"
+_MOMENTS = f"{WALKING}_moments"
+# The moment that people's tables have beside an angle; it grows against the angle.
+_MOMENT_OF = {
+    "hip_flexion": "hip_extension_moment",
+    "knee_flexion": "knee_extension_moment",
+    "ankle_dorsiflexion": "ankle_plantarflexion_moment",
+}
+
+
+@dataclass(frozen=True)
+class Followed:
+    """A signal that a measure of the model compares with a recorded curve, on either side.
+
+    source: address of the signal on one side. What the curve counts is direction (signal - zero), in SI.
+    """
+
+    norm: Norm
+    source: str
+    zero: float
+    direction: float
+
+    @property
+    def name(self) -> str:
+        """Of the curve, in words: hip flexion."""
+        return self.norm.name.rpartition(".")[2].replace("_", " ")
+
+    def on(self, replay: Replay, side: str) -> Floats | None:
+        """The signal of a side as the curve counts it; None if the side has none."""
+        address = on_side(self.source, side)
+        if address not in replay.trajectory.signals:
+            return None
+        return self.direction * (replay.trajectory[address] - self.zero)
+
+
+@dataclass(frozen=True)
+class Matched:
+    """One quantity of both legs over the gait cycle, beside people's. cycles: by side."""
+
+    name: str
+    norm: Norm
+    cycles: dict[str, Cycle]
+
+    def comparison(self, side: str) -> Comparison:
+        """The mean stride of a side with people's mean."""
+        return compared(self.cycles[side].mean, self.norm)
+
+
+def library_of(replay: Replay) -> Library:
+    """Tables and components as the run had them, then those of this machine."""
+    own = [replay.folder / COMPONENTS] if replay.folder else []
+    return Library((*own, *library_folders(None if replay.folder else replay.path)))
+
+
+def followed(replay: Replay) -> list[Followed]:
+    """What the gait_curve measures of a model follow, each once for both sides."""
+    model, library = replay.model, library_of(replay)
+    found: dict[tuple[str, str], Followed] = {}
+    for part in model.parts:
+        if part.type.reference != _GAIT_CURVE:
+            continue
+        source = next((c.source for c in model.connections if c.target == f"{part.address}.signal"), None)
+        if source is None:
+            continue
+        norm = _norm(model, part, source, library)
+        values = model.values()
+        zero, direction = (values[part.numbers[name]] for name in ("zero", "direction"))
+        found.setdefault((norm.name, on_side(source, "l")), Followed(norm, source, zero, direction))
+    return list(found.values())
+
+
+def _norm(model: Model, part: Part, source: str, library: Library) -> Norm:
+    """The recorded curve of a measure, with its deviation if its table is at hand."""
+    recording = part.series["curve"]
+    table, _, column = recording.column.rpartition(".")
+    try:
+        return read_norm(column, library, table)
+    except (InvalidSpec, KeyError):
+        name = recording.column or part.address
+        return Norm(name, _unit(model, source), np.array(recording.values), None, recording.source)
+
+
+def _unit(model: Model, signal: str) -> str:
+    part = part_at(model, signal)
+    return part.type.outputs[signal.rpartition(".")[2]].unit if part else "1"
+
+
+def matched_signals(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
+    """The followed signals of both legs."""
+    found = []
+    for one in followed(replay):
+        cycles = {leg.side: leg.over_cycle(v) for leg in legs if (v := one.on(replay, leg.side)) is not None}
+        found.append(Matched(one.name, one.norm, cycles))
+    return [one for one in found if one.cycles]
+
+
+def matched_moments(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
+    """Joint moments over body mass of the joints whose angles are followed, with the sense of people's table."""
+    library, found = library_of(replay), []
+    for one in followed(replay):
+        column = _MOMENT_OF.get(one.norm.name.rpartition(".")[2])
+        if column is None:
+            continue
+        cycles = {}
+        for leg in legs:
+            moment = joint_moment(replay, on_side(one.source, leg.side).rpartition(".")[0])
+            if moment is not None:
+                cycles[leg.side] = leg.over_cycle(-one.direction * moment / mass(replay, leg))
+        if cycles:
+            found.append(Matched(column.replace("_", " "), read_norm(column, library, _MOMENTS), cycles))
+    return found
+
+
+def norm_numbers(replay: Replay) -> dict[str, dict[str, dict[str, Any]]]:
+    """How a walker compares with people: by curve, by leg (left, right); none for what does not walk on two legs.
+
+    Angles in the unit of the curve, shares of the cycle in %. Differences are the model's minus people's.
+    """
+    legs = two_legs(replay)
+    if legs is None:
+        return {}
+    both = [*matched_signals(replay, legs), *matched_moments(replay, legs)]
+    return {
+        one.norm.name: {SIDES[side]: _numbers(one, side, len(cycle.rows)) for side, cycle in one.cycles.items()}
+        for one in both
+    }
+
+
+def _numbers(one: Matched, side: str, count: int) -> dict[str, Any]:
+    found, factor = one.comparison(side), parse_unit(one.norm.unit).factor
+    banded = one.norm.deviation is not None
+    return {
+        "unit": one.norm.unit,
+        "strides": count,
+        "correlation": None if math.isnan(found.correlation) else found.correlation,
+        "error": found.error / factor,
+        "shape_error": found.shape_error / factor,
+        "range_of_motion": found.reach / factor,
+        "range_of_motion_difference": (found.reach - found.norm_reach) / factor,
+        "timing_difference": later(found.highest_at, found.norm_highest_at),
+        "lowest_timing_difference": later(found.lowest_at, found.norm_lowest_at),
+        "fit": found.fit if banded else None,
+        "shape_fit": found.shape_fit if banded else None,
+    }
+
+
+def later(place: float, norm_place: float) -> float:
+    """By how much of the cycle in % a place from 0 to 1 is later, the shorter way round: -50 to 50."""
+    return 100 * ((place - norm_place + 0.5) % 1.0 - 0.5)

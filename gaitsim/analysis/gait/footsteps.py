@@ -1,0 +1,111 @@
+"""Steps of a walker one by one: length, cadence, stance and double support; margin to falling; symmetry."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+
+from gaitsim.analysis.gait.legs import Leg, unsided
+from gaitsim.analysis.replays.cycles import Floats
+from gaitsim.analysis.replays.replay import Replay
+from gaitsim.model import Model
+
+_CENTER = "sensor/center_of_mass"
+_FLAT = "terrain/flat"
+
+
+@dataclass(frozen=True)
+class Step:
+    """From the touchdown of the other foot to that of this one. at: of the latter, in s; length in m."""
+
+    side: str
+    at: float
+    duration: float
+    length: float
+
+    @property
+    def cadence(self) -> float:
+        """Steps a minute if all were like this one."""
+        return 60 / self.duration
+
+
+def steps(replay: Replay, legs: Sequence[Leg]) -> list[Step]:
+    """The steps between touchdowns of alternate feet; a foot that lands twice in a row makes none.
+
+    The length is the distance of the two footprints: where the landing part of the foot, such as the
+    heel, touched down, and where the same part of the other foot had.
+    """
+    found = []
+    for (before, other), (at, leg) in pairwise(_landings(legs)):
+        if other.side == leg.side or at <= before:
+            continue
+        contact = _landing_contact(replay, leg, at)
+        twin = next((c for c in other.contacts if unsided(c) == unsided(contact)), other.contacts[0])
+        length = _position(replay, contact, at) - _position(replay, twin, before)
+        found.append(Step(leg.side, at, at - before, length))
+    return found
+
+
+def _landings(legs: Sequence[Leg]) -> list[tuple[float, Leg]]:
+    return sorted(((at, leg) for leg in legs for at in leg.touchdowns), key=lambda landing: landing[0])
+
+
+def _landing_contact(replay: Replay, leg: Leg, at: float) -> str:
+    """Of the contacts of a leg, the one that is loaded most at its touchdown."""
+    index = int(np.searchsorted(replay.times, at))
+    return max(leg.contacts, key=lambda contact: float(replay.trajectory[f"{contact}.load"][index]))
+
+
+def _position(replay: Replay, contact: str, at: float) -> float:
+    return float(np.interp(at, replay.times, replay.trajectory[f"{contact}.position"]))
+
+
+def double_support(leg: Leg, other: Leg) -> Floats:
+    """Share of each stride of a leg in which both legs stand."""
+    return leg.share(leg.standing * other.standing)
+
+
+def margin(replay: Replay, legs: Sequence[Leg]) -> Floats | None:
+    """By how far in m the foremost contact that stands is ahead of the extrapolated center of mass.
+
+    x + v / sqrt(g / l) with l, the mean height of the center of mass (Hof and others 2005). Below 0, a step
+    is needed not to fall forwards. Nan in flight; None unless the model has a sensor/center_of_mass and
+    its ground is flat.
+    """
+    sensor = _center(replay.model)
+    if sensor is None or not _flat(replay.model):
+        return None
+    signals = replay.trajectory
+    pace = np.sqrt(replay.model.simulate.gravity / np.mean(signals[f"{sensor}.height"]))
+    ahead = signals[f"{sensor}.forward"] + signals[f"{sensor}.forward_velocity"] / pace
+    contacts = [contact for leg in legs for contact in leg.contacts]
+    reached = [np.where(signals[f"{c}.load"] > 0, signals[f"{c}.position"], -np.inf) for c in contacts]
+    front = np.max(reached, axis=0)
+    return np.asarray(np.where(np.isfinite(front), front, np.nan) - ahead, dtype=np.float64)
+
+
+def lacks_center(model: Model) -> bool:
+    """Whether a margin to falling is missing only for want of a sensor/center_of_mass."""
+    return _center(model) is None and _flat(model)
+
+
+def _center(model: Model) -> str | None:
+    return next((p.address for p in model.parts if p.type.reference == _CENTER), None)
+
+
+def _flat(model: Model) -> bool:
+    return {p.type.reference for p in model.parts if p.type.kind == "terrain"} <= {_FLAT}
+
+
+def symmetry_index(left: float, right: float) -> float:
+    """By how much the right side is more than the left, in % of their mean size; nan if both are 0."""
+    size = (abs(left) + abs(right)) / 2
+    return 100 * (right - left) / size if size > 0 else float("nan")
+
+
+def symmetry(pairs: Mapping[str, tuple[float, float]]) -> dict[str, float]:
+    """Symmetry index of each named pair of left and right."""
+    return {name: symmetry_index(*pair) for name, pair in pairs.items()}

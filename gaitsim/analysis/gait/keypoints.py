@@ -1,0 +1,72 @@
+"""What healthy adults do at their natural speed where no curve is shipped: peaks of forces and powers, muscles' times.
+
+The peaks are ranges over two means: that of Bovi and others (2011) and that of Winter (1991, 19 subjects). A
+muscle is on where the mean of Bovi and others is above half of its range.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from gaitsim.analysis.gait.panels import PEOPLE
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+PEAKS_BY = "Bovi and others 2011, Winter 1991"
+ON_BY = "Bovi and others 2011"
+
+
+@dataclass(frozen=True)
+class Peak:
+    """An extreme of a curve over the gait cycle: value and place in %, each from the lower to the higher mean."""
+
+    low: float
+    high: float
+    begin: float
+    end: float
+
+
+# body weights: along the ground's normal, and forwards
+VERTICAL = (Peak(1.055, 1.103, 14, 14), Peak(0.721, 0.800, 29, 30), Peak(1.084, 1.142, 48, 48))
+FORWARDS = (Peak(-0.196, -0.161, 10, 10), Peak(0.208, 0.223, 52, 54))
+
+# W/kg, by joint
+POWERS: Mapping[str, Sequence[Peak]] = {
+    "hip": (Peak(0.275, 0.391, 11, 12), Peak(0.713, 0.754, 60, 62)),
+    "knee": (Peak(-0.759, -0.567, 7, 10), Peak(-0.788, -0.778, 56, 60), Peak(-0.976, -0.785, 90, 92)),
+    "ankle": (Peak(-0.600, -0.385, 36, 36), Peak(3.269, 3.331, 54, 55)),
+}
+
+# from and to, in % of the gait cycle
+ON: Mapping[str, Sequence[tuple[float, float]]] = {
+    "tibialis_anterior": ((0, 5), (65, 74), (95, 100)),
+    "soleus": ((31, 48),),
+    "gastrocnemius": ((28, 45),),
+    "vastus": ((0, 11), (95, 100)),
+    "hamstrings": ((0, 9), (83, 100)),
+    "gluteus": ((0, 7),),
+}
+
+
+def draw_peaks(panel: Axes, peaks: Sequence[Peak]) -> None:
+    """A cross for each peak, as wide and as high as its range."""
+    for peak in peaks:
+        at, value = (peak.begin + peak.end) / 2, (peak.low + peak.high) / 2
+        wide, high = (peak.end - peak.begin) / 2, (peak.high - peak.low) / 2
+        panel.errorbar(
+            at, value, high, wide, color=PEOPLE, marker="o", markersize=4, capsize=2, linewidth=1.2, zorder=4
+        )
+
+
+def draw_on(panel: Axes, muscle: str) -> None:
+    """Bars along the upper edge where people's muscle is on."""
+    for begin, end in ON.get(muscle, ()):
+        panel.axvspan(begin, end, 0.93, 1, color=PEOPLE, linewidth=0)
+
+
+def name_peaks(panel: Axes) -> None:
+    """What the crosses are, in the legend."""
+    panel.plot([], [], "o", color=PEOPLE, markersize=4, label="people")

@@ -1,0 +1,144 @@
+"""A walker's gait in numbers, leg by leg, and how its curves compare with people's, as data and as tables."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from gaitsim.analysis.drawings.style import shown_unit
+from gaitsim.analysis.drawings.table import Table, shown
+from gaitsim.analysis.gait.comparison import followed, norm_numbers
+from gaitsim.analysis.gait.figures import symmetry_pairs
+from gaitsim.analysis.gait.footsteps import double_support, margin, steps, symmetry
+from gaitsim.analysis.gait.joint_moments import joint_work
+from gaitsim.analysis.gait.legs import SIDES, Leg, mass, on_side, two_legs
+from gaitsim.analysis.gait.muscles import metabolic_power
+from gaitsim.analysis.gait.path_work import created_power
+from gaitsim.analysis.gait.pressure import pressure
+from gaitsim.analysis.replays.cycles import Floats
+from gaitsim.analysis.replays.replay import Replay
+
+Legs = Sequence[Leg]
+_LEAST_WORK = 1e-9  # J/kg; less is rounding
+# name, unit, and by side a value for each step or stride
+Quantity = tuple[str, str, dict[str, Floats]]
+
+
+def gait_numbers(replay: Replay) -> dict[str, dict[str, Any]]:
+    """Of each quantity its unit, mean and standard deviation over strides or steps, and the means of left and right.
+
+    Nothing for what does not walk on two legs. `symmetry` has right minus left in % of their mean.
+    """
+    legs = two_legs(replay)
+    if legs is None:
+        return {}
+    found: dict[str, dict[str, Any]] = {"strides": {SIDES[leg.side]: len(leg.strides) for leg in legs}}
+    for name, unit, values in _quantities(replay, legs):
+        every = np.concatenate([each for each in values.values() if each.size] or [np.array([math.nan])])
+        means = {SIDES[side]: _number(each) for side, each in values.items()}
+        deviation = None if np.isnan(every).any() else float(np.std(every))
+        found[name] = {"unit": unit, "mean": _number(every), "deviation": deviation, **means}
+    indices = symmetry(symmetry_pairs(replay, legs))
+    found["symmetry"] = {"unit": "%", **{name: None if math.isnan(at) else at for name, at in indices.items()}}
+    return found
+
+
+def _number(values: Floats) -> float | None:
+    return None if not values.size or np.isnan(values).any() else float(np.mean(values))
+
+
+def _quantities(replay: Replay, legs: Legs) -> Iterator[Quantity]:
+    yield from _of_steps(replay, legs)
+    yield from _of_forces(legs)
+    yield from _of_pressure(replay, legs)
+    yield from _of_energy(replay, legs)
+    ahead = margin(replay, legs)
+    if ahead is not None:
+        yield "margin_at_touchdown", "m", {leg.side: leg.over_cycle(ahead).rows[:, 0] for leg in legs}
+
+
+def _of_steps(replay: Replay, legs: Legs) -> Iterator[Quantity]:
+    found = steps(replay, legs)
+    of = {side: [step for step in found if step.side == side] for side in SIDES}
+    yield "step_length", "m", {side: np.array([step.length for step in mine]) for side, mine in of.items()}
+    yield "step_time", "s", {side: np.array([step.duration for step in mine]) for side, mine in of.items()}
+    yield "cadence", "1/min", {side: np.array([step.cadence for step in mine]) for side, mine in of.items()}
+    yield "stance", "%", {leg.side: 100 * leg.share(leg.standing) for leg in legs}
+    left, right = legs
+    yield "double_support", "%", {"l": 100 * double_support(left, right), "r": 100 * double_support(right, left)}
+
+
+def _of_forces(legs: Legs) -> Iterator[Quantity]:
+    """In body weights, of all instants of each stride."""
+    yield "peak_force", "1", {leg.side: leg.highest(leg.load) for leg in legs}
+    yield "braking", "1", {leg.side: -leg.highest(-leg.shear) for leg in legs}
+    yield "propulsion", "1", {leg.side: leg.highest(leg.shear) for leg in legs}
+
+
+def _of_pressure(replay: Replay, legs: Legs) -> Iterator[Quantity]:
+    """From the heel's print, at touchdown and at take-off, and when it is past the middle of the foot."""
+    found = {leg.side: one for leg in legs if (one := pressure(replay, leg)) is not None}
+    if not found:
+        return
+    yield "foot_length", "m", {side: np.array([one.length]) for side, one in found.items()}
+    rows = {side: one.over_stance.rows for side, one in found.items()}
+    yield "center_of_pressure_at_touchdown", "m", {side: each[:, 0] for side, each in rows.items()}
+    yield "center_of_pressure_at_takeoff", "m", {side: each[:, -1] for side, each in rows.items()}
+    yield "center_of_pressure_mean", "m", {side: np.mean(each, axis=1) for side, each in rows.items()}
+    yield "center_of_pressure_past_middle", "%", {s: np.array([100 * one.middle_at]) for s, one in found.items()}
+
+
+def _of_energy(replay: Replay, legs: Legs) -> Iterator[Quantity]:
+    for one in followed(replay):
+        joint = one.name.split()[0]
+        works = [joint_work(replay, leg, on_side(one.source, leg.side).rpartition(".")[0]) for leg in legs]
+        known = {
+            leg.side: np.array(work) / mass(replay, leg)
+            for leg, work in zip(legs, works, strict=True)
+            if work is not None
+        }
+        if known:
+            yield f"{joint}_positive_work", "J/kg", {side: work[0] for side, work in known.items()}
+            yield f"{joint}_negative_work", "J/kg", {side: work[1] for side, work in known.items()}
+    created = {leg.side: leg.integral(created_power(replay, leg.side)) / mass(replay, leg) for leg in legs}
+    if any(np.abs(work).max(initial=0) > _LEAST_WORK for work in created.values()):
+        yield "work_created_at_paths", "J/kg", created
+    powers = {leg.side: leg.share(power) for leg in legs if (power := metabolic_power(replay, leg)) is not None}
+    if powers:
+        yield "metabolic_power", "W/kg", powers
+
+
+def gait_table(replay: Replay) -> Table | None:
+    """The numbers of a gait; None for what does not walk on two legs."""
+    found = {name: row for name, row in gait_numbers(replay).items() if "mean" in row}
+    columns = ("gait", "unit", "mean", "deviation", "left", "right")
+    rows = tuple(
+        (name, shown_unit(row["unit"]), *(_shown(row.get(word), 4) for word in columns[2:]))
+        for name, row in found.items()
+    )
+    return Table(columns, rows, frozenset(range(2, 6))) if rows else None
+
+
+def norms_table(replay: Replay) -> Table | None:
+    """Each leg's curves beside people's; None for what has none."""
+    columns = ("curve", "leg", "correlation", "RMSE", "range", "people's range", "peak later by (%)", "fit (%)")
+    rows = tuple(
+        (f"{curve.rpartition('.')[2]} ({shown_unit(row['unit'])})", leg, *(_shown(each, 3) for each in _compared(row)))
+        for curve, legs in norm_numbers(replay).items()
+        for leg, row in legs.items()
+    )
+    return Table(columns, rows, frozenset(range(2, len(columns)))) if rows else None
+
+
+def _compared(row: Mapping[str, Any]) -> list[float | None]:
+    reach = row["range_of_motion"]
+    people = reach - row["range_of_motion_difference"]
+    return [row["correlation"], row["error"], reach, people, row["timing_difference"], row["fit"]]
+
+
+def _shown(number: float | None, digits: int) -> str:
+    """As a table has it; what is left of rounding is 0."""
+    return shown(None if number is None else round(number, 9), digits)

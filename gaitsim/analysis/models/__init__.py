@@ -1,0 +1,1 @@
+"""A component or a model by itself: its curves, moment arms, costs, and how step size matters."""

@@ -1,0 +1,1 @@
+"""Figures of muscles and of the energy that they spend."""

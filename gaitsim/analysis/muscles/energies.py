@@ -1,0 +1,189 @@
+"""Energies that sum: what is stored where, who gave and who took, and what stays unexplained."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from gaitsim.analysis.drawings.drawing import Drawing
+from gaitsim.analysis.drawings.style import GREY, PALETTE, above, labelled, panels
+from gaitsim.analysis.gait.joint_moments import STOPS
+from gaitsim.analysis.gait.path_work import created_power
+from gaitsim.analysis.muscles.figures import muscles, work_done
+from gaitsim.analysis.replays.cycles import Floats, arriving, shade_stance, shown_part, stance, thinned
+from gaitsim.analysis.replays.replay import Replay
+from gaitsim.model import Part
+from gaitsim.units import parse_unit
+
+_CYCLES = 6  # more cannot be told apart
+_LEAST = 1e-9  # J; less is not worth a colour
+CREATED = "created at paths"
+
+
+@dataclass(frozen=True)
+class Balance:
+    """Energies in J over time.
+
+    stored: what is held, by name. exchanged: what came in since the first instant, by name; losses
+    are negative. They explain the change of the total, up to the residual.
+    """
+
+    stored: Mapping[str, Floats]
+    exchanged: Mapping[str, Floats]
+
+    @property
+    def total(self) -> Floats:
+        return np.asarray(sum(self.stored.values()), dtype=np.float64)
+
+    @property
+    def change(self) -> Floats:
+        return self.total - self.total[:1]
+
+    @property
+    def residual(self) -> Floats:
+        """Change of the total that no part explains."""
+        return self.change - sum(self.exchanged.values(), start=np.zeros_like(self.total))
+
+    @property
+    def turned_over(self) -> float:
+        """The largest swing of any energy in the balance, to which a residual is compared."""
+        swings = [float(np.ptp(values)) for values in (*self.stored.values(), *self.exchanged.values())]
+        return max(swings, default=0.0)
+
+
+def balance(replay: Replay) -> Balance | None:
+    """The energies of a run; None if nothing in the model reports kinetic and potential energy."""
+    sensor = next((p for p in replay.model.parts if {"kinetic", "potential"} <= p.type.outputs.keys()), None)
+    if sensor is None or not len(replay.times):
+        return None
+    signal = replay.trajectory
+    stored = {"kinetic": signal[f"{sensor.address}.kinetic"], "potential": signal[f"{sensor.address}.potential"]}
+    exchanged: dict[str, Floats] = {}
+    for muscle in muscles(replay):
+        stored[f"elastic, {muscle.address}"] = muscle.elastic_energy
+        exchanged[f"{muscle.address}, contractile"] = muscle.contractile_work
+    for part in replay.model.parts:
+        held, given = _of_part(replay, part)
+        stored |= {f"elastic, {name}": energy for name, energy in held.items()}
+        exchanged |= given
+    exchanged[CREATED] = _integral(created_power(replay), replay.times)
+    return Balance(_worth(stored), _worth(exchanged))
+
+
+def _worth(energies: Mapping[str, Floats]) -> dict[str, Floats]:
+    return {name: values for name, values in energies.items() if np.abs(values).max(initial=0.0) > _LEAST}
+
+
+def _of_part(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, Floats]]:
+    """What a contact, a constraint or a joint holds, and what came in through it."""
+    own, signal = part.address, replay.trajectory
+    if part.type.kind == "contact":
+        energy = signal[f"{own}.energy"]
+        if "height" not in part.type.outputs:
+            return {own: energy}, {}
+        lost = work_done(-signal[f"{own}.force"], signal[f"{own}.height"]) + energy - energy[:1]
+        if "slip_velocity" in part.type.outputs:
+            lost = lost + _integral(signal[f"{own}.friction_force"] * signal[f"{own}.slip_velocity"], replay.times)
+        return {own: energy}, {f"{own}, damping": lost}
+    if part.type.kind == "constraint":
+        return {own: signal[f"{own}.energy"]}, {}
+    if part.type.kind == "joint":
+        return _of_joint(replay, part)
+    return {}, {}
+
+
+def _of_joint(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, Floats]]:
+    """Stops, damping and drives of a joint with one velocity; what muscles' paths send counts as the muscles'."""
+    own, outputs = part.address, part.type.outputs
+    rates = [name for name, port in outputs.items() if port.unit in ("m/s", "rad/s")]
+    if len(rates) != 1:
+        return {}, {}
+    signal, velocity = replay.trajectory, replay.trajectory[f"{own}.{rates[0]}"]
+    held: dict[str, Floats] = {}
+    given: dict[str, Floats] = {}
+    drives = [name for name, port in part.type.inputs.items() if parse_unit(port.unit).si in ("N", "N m")]
+    for drive in drives:
+        kinds = {p.address: p.type.kind for p in replay.model.parts}
+        senders = [c.source for c in replay.model.connections if c.target == f"{own}.{drive}"]
+        if senders and all(kinds[source.rpartition(".")[0]] != "path" for source in senders):
+            given[f"{own}, {drive}"] = _integral(arriving(replay, f"{own}.{drive}") * velocity, replay.times)
+    damping = 0.0
+    if "damping" in part.numbers:
+        damping = replay.model.values()[part.numbers["damping"]]
+    lost = _integral(-damping * velocity**2, replay.times)
+    stop = next((name for name in STOPS if name in outputs), None)
+    if stop is not None and "stop_energy" in outputs:
+        held[f"{own}'s stops"] = energy = signal[f"{own}.stop_energy"]
+        lost = lost + _integral(signal[f"{own}.{stop}"] * velocity, replay.times) + energy - energy[:1]
+    return held, given | {f"{own}, damping": lost}
+
+
+def _integral(power: Floats, times: Floats) -> Floats:
+    steps = 0.5 * (power[1:] + power[:-1]) * np.diff(times)
+    return np.concatenate([np.zeros(min(1, len(power))), np.cumsum(steps)])
+
+
+def energy_figures(replay: Replay) -> list[Drawing]:
+    """The stored energies of the last cycles, stacked; and over the run who gave and who took."""
+    whole = balance(replay)
+    if whole is None or len(replay.times) < 2:
+        return []
+    part, said = shown_part(replay)
+    return [_stacked(replay, whole, part, said), _exchanged(replay, whole)]
+
+
+def _stacked(replay: Replay, whole: Balance, part: Replay, said: str) -> Drawing:
+    times = part.times
+    kept = (replay.times >= times[0]) & (replay.times <= times[-1])
+    shown = np.linspace(0, len(times) - 1, min(len(times), 1200)).astype(int)
+    lowest = whole.stored["potential"][kept].min() if "potential" in whole.stored else 0.0
+    layers = {name: values[kept] - (lowest if name == "potential" else 0.0) for name, values in whole.stored.items()}
+    figure, (axes,) = panels(1, 1, height=3.2)
+    stack = [values[shown] for values in layers.values()]
+    axes.stackplot(times[shown], stack, labels=list(layers), colors=PALETTE[:6], alpha=0.75, linewidth=0)
+    axes.plot(times[shown], np.sum(stack, axis=0), color="black", linewidth=1.2, label="total")
+    shade_stance(axes, part)
+    axes.margins(x=0)
+    axes.set_ylim(bottom=0)
+    axes.set_xlabel(labelled("time", "s"))
+    axes.set_ylabel(labelled("energy", "J"))
+    above(axes)
+    grey = " Grey: stance." if stance(part) is not None else ""
+    caption = (
+        f"All energy that the model holds, over {said}; the layers sum to the total. Potential energy counts from "
+        f"its least value in this time ({lowest:.5g} J).{grey}"
+    )
+    return Drawing("energies", "Stored energies", caption, figure)
+
+
+def _exchanged(replay: Replay, whole: Balance) -> Drawing:
+    times, residual = replay.times, whole.residual
+    part, said = shown_part(replay, _CYCLES)
+    kept = (times >= part.times[0]) & (times <= part.times[-1])
+    figure, (axes, rest) = panels(2, 1, height=2.3)
+    for name, values in whole.exchanged.items():
+        axes.plot(*thinned(times[kept], values[kept]), label=name)
+    axes.plot(*thinned(times[kept], whole.change[kept]), "--", color="black", label="change of the total")
+    axes.set_ylabel(labelled("energy since the start", "J"))
+    above(axes)
+    rest.plot(*thinned(times, residual), color=GREY)
+    rest.set_ylabel(labelled("residual", "J"))
+    for panel in (axes, rest):
+        panel.set_xlabel(labelled("time", "s"))
+        panel.margins(x=0)
+    ends = ", ".join(f"{name} {values[-1]:+.4g} J" for name, values in whole.exchanged.items())
+    largest = float(np.abs(residual).max())
+    share = f", {100 * largest / whole.turned_over:.2g} % of the largest swing" if whole.turned_over > 0 else ""
+    paths = ""
+    if CREATED in whole.exchanged:
+        paths = " Created at paths: joints get more work from them than muscle-tendon units give, or less, as the "
+        paths += "pennation factor scales a path's length and not its moment."
+    caption = (
+        f"What came into the model since the start, losses negative, over {said}; at the end: {ends or 'nothing'}; "
+        f"the total changed by {whole.change[-1]:+.4g} J. Residual, which is what these do not explain (errors of the "
+        f"time step, and parts that take energy without saying so): {residual[-1]:+.3g} J at the end, at most "
+        f"{largest:.3g} J{share}.{paths}"
+    )
+    return Drawing("energy_balance", "Who gave and who took energy", caption, figure)

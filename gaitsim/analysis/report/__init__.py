@@ -1,0 +1,1 @@
+"""The report, and which figures a run has."""

@@ -1,0 +1,40 @@
+"""Every function that makes figures of a run; each decides by the model's parts whether it has some."""
+
+from __future__ import annotations
+
+from gaitsim.analysis.drawings.drawing import Figures
+from gaitsim.analysis.gait.figures import gait_figures, lacking_gait
+from gaitsim.analysis.hopping.figures import hopping_figures
+from gaitsim.analysis.muscles.energies import balance, energy_figures
+from gaitsim.analysis.muscles.figures import muscle_figures
+from gaitsim.analysis.replays.replay import Replay
+from gaitsim.analysis.searches.convergence import convergence_figures, tuned_figures
+from gaitsim.analysis.searches.draws import draws_figures
+from gaitsim.analysis.searches.sweep import sweep_figures
+from gaitsim.analysis.signals.motion import motion_figures
+
+FIGURES: tuple[Figures, ...] = (
+    sweep_figures,
+    draws_figures,
+    convergence_figures,
+    tuned_figures,
+    hopping_figures,
+    gait_figures,
+    energy_figures,
+    muscle_figures,
+    motion_figures,
+)
+
+
+def missing(replay: Replay) -> list[str]:
+    """Which figures a run lacks that others have, and why; words for its reader."""
+    count = len(replay.times)
+    if count < 2:
+        instants = "one instant only" if count else "no instant"
+        why = f"; it {replay.ending}" if replay.ending else ""
+        return [f"{replay.label} has {instants}, so nothing is drawn over time{why}."]
+    found = lacking_gait(replay)
+    if balance(replay) is None:
+        move = "add energy: {use: sensor/mechanical_energy} to its parts"
+        found.append(f"{replay.label} reports no kinetic and potential energy, so none is drawn; {move}.")
+    return found

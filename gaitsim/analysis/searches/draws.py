@@ -1,0 +1,124 @@
+"""Figures of draws: where each metric lies when every tuned number is a little different."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from gaitsim.analysis.drawings.drawing import Drawing
+from gaitsim.analysis.drawings.style import FONT, GREY, PALETTE, labelled, panels
+from gaitsim.analysis.replays.cycles import Floats
+from gaitsim.analysis.replays.replay import Replay
+from gaitsim.model import headline_metrics
+from gaitsim.results.rows import read_rows
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+_COLUMNS = 2
+_HEIGHT = 1.15  # inches
+
+
+@dataclass(frozen=True)
+class Summary:
+    """One metric over draws, in its declared unit; count: of the draws that have it."""
+
+    name: str
+    mean: float
+    least: float
+    greatest: float
+    count: int
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """The draws that a result holds: how far and from which seed, how each ended, and its metrics (nan: none)."""
+
+    within: float
+    seed: int
+    statuses: tuple[str, ...]
+    metrics: tuple[Mapping[str, float], ...]
+
+    @property
+    def completed(self) -> int:
+        return sum(status == "completed" for status in self.statuses)
+
+    @property
+    def words(self) -> str:
+        """How many of the draws completed, and what they are."""
+        changed = f"every tuned value changed by up to {100 * self.within:g} % (uniform, seed {self.seed})"
+        return f"{self.completed} of {len(self.statuses)} draws completed; in each, {changed}"
+
+    def column(self, metric: str) -> Floats:
+        return np.array([row.get(metric, math.nan) for row in self.metrics])
+
+
+def summaries(rows: Sequence[Mapping[str, float]]) -> list[Summary]:
+    """Mean, least and greatest of every metric over the rows where it is finite; nan where there are none."""
+    found = []
+    for name in dict.fromkeys(name for row in rows for name in row):
+        numbers = [row[name] for row in rows if math.isfinite(row.get(name, math.nan))]
+        if numbers:
+            found.append(Summary(name, math.fsum(numbers) / len(numbers), min(numbers), max(numbers), len(numbers)))
+        else:
+            found.append(Summary(name, math.nan, math.nan, math.nan, 0))
+    return found
+
+
+def drawn_in(folder: Path, manifest: Mapping[str, Any]) -> Drawn | None:
+    """The draws of a result; None if it holds something else. Errors: BadResult."""
+    asked = manifest.get("draws")
+    if not asked:
+        return None
+    rows = read_rows(folder)
+    metrics = [{n: math.nan if v is None else float(v) for n, v in row["metrics"].items()} for row in rows]
+    statuses = tuple(str(row["status"]) for row in rows)
+    return Drawn(float(asked["within"]), int(asked["seed"]), statuses, tuple(metrics))
+
+
+def draws_of(replay: Replay) -> Drawn | None:
+    """The draws that a replay is one of; None if something else. Errors: BadResult."""
+    return None if replay.folder is None else drawn_in(replay.folder, replay.manifest)
+
+
+def draws_figures(replay: Replay) -> list[Drawing]:
+    """One figure: each measure's metric of its own name, a point a draw; none for what holds no draws."""
+    drawn = draws_of(replay)
+    if drawn is None:
+        return []
+    names = [n for n in headline_metrics(replay.model.metrics) if np.isfinite(drawn.column(n)).any()]
+    if not names:
+        return []
+    columns = min(_COLUMNS, len(names))
+    figure, grid = panels(math.ceil(len(names) / columns), columns, height=_HEIGHT)
+    for axes, name in zip(grid, names, strict=False):
+        _strip(axes, drawn, drawn.column(name))
+        axes.set_xlabel(labelled(name, replay.model.metrics[name]))
+    for axes in grid[len(names) :]:
+        axes.set_visible(False)
+    for axes in grid[::columns]:
+        axes.set_ylabel("draw")
+    lost = "Crosses: stopped before the end. " if "stopped" in drawn.statuses else ""
+    lost += "What failed has no point. " if "failed" in drawn.statuses else ""
+    caption = f"{drawn.words}. One point a draw, at its number. {lost}Grey line: mean of all draws."
+    return [Drawing("draws", "Every tuned value a little different", caption, figure)]
+
+
+def _strip(axes: Axes, drawn: Drawn, values: Floats) -> None:
+    """The values from left to right, each at the number of its draw."""
+    from matplotlib.ticker import MaxNLocator
+
+    numbers, kept = np.arange(1, values.size + 1), np.array(drawn.statuses) == "completed"
+    axes.axvline(float(np.nanmean(values)), color=GREY, linewidth=1)
+    axes.plot(values[kept], numbers[kept], "o", color=PALETTE[0], markersize=3)
+    axes.plot(values[~kept], numbers[~kept], "x", color=PALETTE[1], markersize=4)
+    axes.set_ylim(0, values.size + 1)
+    axes.locator_params(axis="x", nbins=4)
+    axes.ticklabel_format(axis="x", scilimits=(-3, 4), useMathText=True)
+    axes.xaxis.offsetText.set_fontsize(FONT - 1)
+    axes.yaxis.set_major_locator(MaxNLocator(nbins=3, integer=True))
