@@ -1,3 +1,5 @@
+import math
+
 from gaitsim.component import Component, Curve, Input, Output, Parameter, State
 
 
@@ -12,8 +14,16 @@ class FirstOrder(Component):
         bounds=(0, 1),
         source="geyer2003",
     )
+    longest_substep = Parameter(
+        "ms",
+        "A longer step is made in equal parts no longer than this, over which the stimulation goes on as it did.",
+        default=0.5,
+        bounds=(1e-3, 100),
+        source="definition: a twentieth of the time constant",
+    )
     excitation = Input("1", "Sum of all stimulations, STIM.", sums=True)
     level = State("1", "Activation A.")
+    stimulation_before = State("1", "Clipped stimulation one step ago.")
     activation = Output("1", "Activation A.")
 
     response = Curve(
@@ -23,6 +33,7 @@ class FirstOrder(Component):
     @staticmethod
     def start(p, u, x):
         x.level = min(1.0, max(p.min_excitation, u.excitation))
+        x.stimulation_before = x.level
 
     @staticmethod
     def output(p, u, x, y):
@@ -31,4 +42,9 @@ class FirstOrder(Component):
     @staticmethod
     def update(p, u, x, y, dt):
         stimulation = min(1.0, max(p.min_excitation, u.excitation))
-        x.level = x.level + (stimulation - x.level) * dt / p.time_constant
+        parts = math.ceil(dt / p.longest_substep - 1e-9)
+        rise = (stimulation - x.stimulation_before) / parts
+        for i in range(parts):
+            present = min(1.0, max(p.min_excitation, stimulation + i * rise))
+            x.level = x.level + (present - x.level) * (dt / parts) / p.time_constant
+        x.stimulation_before = stimulation
