@@ -66,7 +66,7 @@ def test_it_walks_with_every_tuned_number_changed_by_up_to_one_percent() -> None
     assert found.count("completed") >= 9
 
 
-@pytest.mark.parametrize("step", ["0.8 ms", "0.4 ms"])
+@pytest.mark.parametrize("step", ["0.5 ms", "0.25 ms"])
 def test_the_published_gains_walk_untuned(step: str) -> None:
     found = run(WALKER, "simulate.step=" + step, tuned=False)
     assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
