@@ -42,11 +42,12 @@ def test_it_walks_out_of_the_box_at_its_step_and_at_half_of_it(settings: tuple[s
 
 
 def test_the_result_that_produced_its_values_is_in_the_repository() -> None:
-    result, values = read_tuned(tuned_path(WALKER))
-    rows = [json.loads(line) for line in (ROOT / result / "evaluations.jsonl").read_text().splitlines()]
+    model = source_of_spec(WALKER, ["simulate.step=0.5 ms"], None, tuned=True).model()  # the step of that search
+    tuned = read_tuned(tuned_path(WALKER), model.free)
+    rows = [json.loads(line) for line in (ROOT / tuned.result / "evaluations.jsonl").read_text().splitlines()]
     best = min(rows, key=lambda row: row["score"])
-    assert best["x"] == list(values.values())
-    assert run(WALKER, "simulate.step=0.5 ms").score == pytest.approx(best["score"], rel=1e-3)
+    assert best["x"] == list(tuned.values.values())
+    assert Simulator(model).run().score == pytest.approx(best["score"], rel=1e-3)
 
 
 def test_its_step_is_right_within_one_percent() -> None:
