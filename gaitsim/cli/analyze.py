@@ -41,55 +41,65 @@ class Format(StrEnum):
 
 def analyze(
     paths: Annotated[
-        list[Path], typer.Argument(metavar="RESULT...", help="Result folders, or specs; several are overlaid.")
+        list[Path],
+        typer.Argument(metavar="RESULT...", help="Result folders or specs; several are drawn over one another."),
     ],
     plot: Annotated[
         list[str] | None,
-        typer.Option(metavar="PATTERN", help="Draw signals, such as 'leg_*.soleus.force', or a muscle; repeatable."),
+        typer.Option(metavar="PATTERN", help="Signals to draw, such as 'leg_*.soleus.force', or a muscle; repeatable."),
     ] = None,
     against: Annotated[
-        str | None, typer.Option(metavar="SIGNAL", help="What --plot is drawn against, instead of time.")
+        str | None, typer.Option(metavar="SIGNAL", help="Signal on the x axis of --plot, instead of time.")
     ] = None,
     return_map: Annotated[
         list[str] | None,
-        typer.Option(metavar="SIGNAL", help="Draw maximum n + 1 over maximum n of it; a measure: of what it sees."),
+        typer.Option(
+            metavar="SIGNAL", help="Draw each maximum of a signal over the one before; for a measure, of its input."
+        ),
     ] = None,
     candidate: Annotated[
         list[str] | None,
-        typer.Option(metavar="WHICH", help="best, a rank, GENERATION:INDEX; of a study, a run; repeatable."),
+        typer.Option(
+            metavar="WHICH", help="best, a rank, or GENERATION:INDEX; the number of a run for a study; repeatable."
+        ),
     ] = None,
     export: Annotated[
-        list[Export] | None, typer.Option(help="Write all signals: OpenSim storage, CSV, netCDF; repeatable.")
+        list[Export] | None, typer.Option(help="Write all signals as OpenSim storage, CSV or netCDF; repeatable.")
     ] = None,
     every: Annotated[
-        str | None, typer.Option(metavar="TIME", help="Of exports: one instant each '10 ms'; by default all.")
+        str | None,
+        typer.Option(metavar="TIME", help="Time between exported instants, such as '10 ms' (default: every step)."),
     ] = None,
-    from_time: Annotated[str | None, typer.Option(metavar="TIME", help="Look from here on, such as '2 s'.")] = None,
-    to_time: Annotated[str | None, typer.Option(metavar="TIME", help="Look up to here.")] = None,
+    from_time: Annotated[
+        str | None, typer.Option(metavar="TIME", help="Start of the time that is shown, such as '2 s'.")
+    ] = None,
+    to_time: Annotated[str | None, typer.Option(metavar="TIME", help="End of the time that is shown.")] = None,
     video: Annotated[
-        bool | None, typer.Option("--video/--no-video", help="Make a video, or none.  [default: unless --only]")
+        bool | None, typer.Option("--video/--no-video", help="Make a video.  [default: unless --only]")
     ] = None,
     gif: Annotated[bool, typer.Option("--gif", help="Make the video a GIF.")] = False,
-    speed: Annotated[float, typer.Option(help="Of the video: 0.25 is four times slower than it was.")] = 1.0,
-    fps: Annotated[float | None, typer.Option(help="Of the video: frames in a second.")] = None,
-    size: Annotated[str | None, typer.Option(metavar="WxH", help="Of the video, in pixels, such as 1280x720.")] = None,
+    speed: Annotated[
+        float, typer.Option(help="Speed of the video; 0.25 is slow motion at a quarter of real time.")
+    ] = 1.0,
+    fps: Annotated[float | None, typer.Option(help="Frames per second of the video.")] = None,
+    size: Annotated[
+        str | None, typer.Option(metavar="WxH", help="Size of the video in pixels, such as 1280x720.")
+    ] = None,
     scopes: Annotated[
-        list[str] | None, typer.Option(metavar="PATTERN", help="Signals beside the video; repeatable.")
+        list[str] | None, typer.Option(metavar="PATTERN", help="Signals to show beside the video; repeatable.")
     ] = None,
-    formats: Annotated[list[Format] | None, typer.Option("--format", help="Of figures; repeatable.")] = None,
+    formats: Annotated[list[Format] | None, typer.Option("--format", help="Format of the figures; repeatable.")] = None,
     only: Annotated[
-        bool, typer.Option("--only", help="Only what other options ask for: no default figures, video or report.")
+        bool, typer.Option("--only", help="Make only what other options ask for: no default figures, video or report.")
     ] = False,
-    folder: Annotated[
-        Path | None, typer.Option(metavar="FOLDER", help="Where all goes; by default into the result.")
-    ] = None,
-    start: Annotated[bool, typer.Option("--start", help="Ignore tuned values beside a spec.")] = False,
+    folder: Annotated[Path | None, typer.Option(metavar="FOLDER", help="Output folder (default: the result).")] = None,
+    start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
     trust: Trust = False,
     settings: Set = None,
     library: Libraries = None,
     json: Json = False,
 ) -> int:
-    """Plots, video, report and exports of results.
+    """Make figures, a video, a report and exports of results.
 
     Examples:
 
@@ -227,8 +237,6 @@ def _said_lacking(replays: list[Replay], words: list[str]) -> None:
         without = lacking(replays, text)
         if 0 < len(without) < len(replays):
             console.say(f"{text}: {', '.join(without)} has no such signal")
-
-
 
 
 def _default_folder(sources: list[tuple[Path, str, Source]]) -> Path:

@@ -18,19 +18,21 @@ if TYPE_CHECKING:
 def check(
     spec: Spec,
     settings: Set = None,
-    plot: Annotated[bool, typer.Option("--plot", help="Draw moment arms over the range of every hinge.")] = False,
-    folder: Annotated[Path, typer.Option(metavar="FOLDER", help="Where the picture of --plot goes.")] = Path(),
+    plot: Annotated[bool, typer.Option("--plot", help="Draw the moment arms over the range of every hinge.")] = False,
+    folder: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder for the picture of --plot.")] = Path(),
     convergence: Annotated[
-        bool, typer.Option("--convergence", help="Run at the step, a half and a quarter: what changes?")
+        bool, typer.Option("--convergence", help="Compare all metrics at the step, a half and a quarter of it.")
     ] = False,
     tolerance: Annotated[
-        float, typer.Option(metavar="PART", help="With --convergence: changes beyond it are flagged.", min=0)
+        float, typer.Option(metavar="SHARE", help="With --convergence: mark larger relative changes.", min=0)
     ] = 0.01,
     trust: Trust = False,
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Check a spec: grammar, units, wiring, components, mechanics. All faults at once.
+    """Check a spec: syntax, units, connections, components and mechanics.
+
+    All faults are reported at once.
 
     Examples:
 

@@ -18,13 +18,13 @@ if TYPE_CHECKING:
     from gaitsim.components.find import Library
     from gaitsim.errors import Fault
 
-app = typer.Typer(help="List and show the components that specs can use.", no_args_is_help=True, rich_markup_mode=None)
+app = typer.Typer(help="List, show, check and create components.", no_args_is_help=True, rich_markup_mode=None)
 
 
 @app.command("list")
 def list_components(
     kind: Annotated[
-        str, typer.Argument(metavar="[KIND]", help="One kind only, such as muscle.", autocompletion=_kinds)
+        str, typer.Argument(metavar="[KIND]", help="Only this kind, such as muscle.", autocompletion=_kinds)
     ] = "*",
     library: Libraries = None,
     json: Json = False,
@@ -52,10 +52,10 @@ def list_components(
 def show_component(
     reference: Reference,
     plot: Annotated[bool, typer.Option("--plot", help="Draw its curves, such as force over length.")] = False,
-    folder: Annotated[Path, typer.Option(metavar="FOLDER", help="Where the picture of --plot goes.")] = Path(),
+    folder: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder for the picture of --plot.")] = Path(),
     settings: Annotated[
         list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="With --plot: a parameter's value; repeatable."),
+        typer.Option("--set", metavar="NAME=VALUE", help="With --plot: value of a parameter; repeatable."),
     ] = None,
     library: Libraries = None,
     json: Json = False,
@@ -93,13 +93,13 @@ def check_components(
     what: Annotated[
         list[str] | None,
         typer.Argument(
-            metavar="[KIND/NAME | PATH]...", help="Components, files or folders; all of the library by default."
+            metavar="[KIND/NAME | PATH]...", help="Components, files or folders (default: the whole library)."
         ),
     ] = None,
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Check component files: names, units on every path, docs, sources, bounds, kind, native code. All faults at once.
+    """Check component files: names, units, documentation, sources, bounds, kind and native code.
 
     Examples:
 
@@ -125,18 +125,20 @@ def check_components(
 
 @app.command("new")
 def new_component_file(
-    kind: Annotated[str, typer.Argument(metavar="KIND", help="Such as muscle.", autocompletion=_kinds)],
-    name: Annotated[str, typer.Argument(metavar="NAME", help="Such as my_muscle.")],
+    kind: Annotated[
+        str, typer.Argument(metavar="KIND", help="Kind of the component, such as muscle.", autocompletion=_kinds)
+    ],
+    name: Annotated[str, typer.Argument(metavar="NAME", help="Name of the component, such as my_muscle.")],
     folder: Annotated[
-        Path, typer.Option(metavar="FOLDER", help="Where your specs are: components/ and tests/ are made there.")
+        Path, typer.Option(metavar="FOLDER", help="Folder of your specs; components/ and tests/ are created in it.")
     ] = Path(),
     like: Annotated[
-        str | None, typer.Option(metavar="KIND/NAME", help="Begin with a copy of this one.", autocompletion=_references)
+        str | None, typer.Option(metavar="KIND/NAME", help="Component to copy.", autocompletion=_references)
     ] = None,
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Write a component of your own that works, with a test; then change it.
+    """Create a component that works, with a test, for you to change.
 
     Examples:
 

@@ -23,31 +23,35 @@ def limit(
     spec: Spec,
     vary: Annotated[
         list[str],
-        typer.Option(metavar="ADDRESS=FROM:TO", help="What goes how far, from where all is well; repeatable."),
+        typer.Option(metavar="ADDRESS=FROM:TO", help="Address and range; the first end must succeed; repeatable."),
     ],
     until: Annotated[
         str | None,
-        typer.Option(metavar="METRIC=VALUE", help="What ends it; unless given, a run that does not complete."),
+        typer.Option(metavar="METRIC=VALUE", help="Limit of a metric (default: the run must complete)."),
     ] = None,
-    tolerance: Annotated[float, typer.Option(metavar="SHARE", help="How exactly, in parts of the range.")] = 0.01,
-    points: Annotated[int, typer.Option(metavar="COUNT", help="Values of the first scan, both ends included.")] = 9,
-    mode: Annotated[ModeName, typer.Option(help="Native code, or plain Python for debugging.")] = ModeName.rapid,
+    tolerance: Annotated[float, typer.Option(metavar="SHARE", help="Precision, as a share of the range.")] = 0.01,
+    points: Annotated[
+        int, typer.Option(metavar="COUNT", help="Number of values in the scan, including both ends.")
+    ] = 9,
+    mode: Annotated[
+        ModeName, typer.Option(help="rapid: native code; normal: plain Python, for debugging.")
+    ] = ModeName.rapid,
     settings: Set = None,
-    no_save: Annotated[bool, typer.Option("--no-save", help="Keep no result folder.")] = False,
+    no_save: Annotated[bool, typer.Option("--no-save", help="Do not save a result folder.")] = False,
     origin: Annotated[
-        str | None, typer.Option("--from", metavar="RESULT", help="Start at the best values of a result.")
+        str | None, typer.Option("--from", metavar="RESULT", help="Start at the best values of this result.")
     ] = None,
     candidate: Annotated[
-        str | None, typer.Option(metavar="WHICH", help="Of a result: best, a rank, or GENERATION:INDEX.")
+        str | None, typer.Option(metavar="WHICH", help="Candidate of a result: best, a rank, or GENERATION:INDEX.")
     ] = None,
-    start: Annotated[bool, typer.Option("--start", help="Ignore tuned values beside the spec.")] = False,
+    start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
     trust: Trust = False,
     library: Libraries = None,
     json: Json = False,
 ) -> int:
-    """Find how far numbers can go before a run ends: pushes, slopes, steps, noise.
+    """Find the largest disturbance that a model survives: pushes, slopes, steps, noise.
 
-    Each --vary is looked through alone: a scan over its range, then bisection where runs end first.
+    Each --vary is varied alone: first a scan of its range, then bisection at the first failure.
 
     Example: gaitsim limit specs/walking_geyer2010_perturbed.yaml --vary push.strength='0 N:1000 N'
     """

@@ -31,7 +31,7 @@ from gaitsim.cli.interrupts import heard_once
 from gaitsim.errors import ExitCode, GaitsimError, Usage
 
 app = typer.Typer(
-    help="Neuromuscular gait models from YAML: check, simulate, tune, show.",
+    help="Simulate, tune and analyze neuromuscular models of gait.",
     no_args_is_help=True,
     pretty_exceptions_enable=False,
     rich_markup_mode=None,

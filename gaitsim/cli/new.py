@@ -20,13 +20,13 @@ def _shipped(incomplete: str) -> list[str]:
 
 
 def new(
-    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="A folder that does not exist yet, such as demo.")],
+    folder: Annotated[Path, typer.Argument(metavar="FOLDER", help="Folder to create, such as demo.")],
     origin: Annotated[
-        str, typer.Option("--from", metavar="NAME", help="Which shipped spec to begin with.", autocompletion=_shipped)
+        str, typer.Option("--from", metavar="NAME", help="Shipped spec to start from.", autocompletion=_shipped)
     ] = "hopping_leg_mass",
     json: Json = False,
 ) -> None:
-    """Make a folder with a model that runs, a variant with a component of your own, its test and the next steps.
+    """Create a folder with a model that runs, a component of your own, its test and next steps.
 
     Examples:
 

@@ -25,28 +25,32 @@ _INTERRUPTED = 130
 
 def optimize(
     spec: Spec,
-    algorithm: Annotated[str | None, typer.Option(help="Search algorithm: cma (default), ga, pso, de.")] = None,
-    population: Annotated[int | None, typer.Option(help="Candidates a generation.")] = None,
-    generations: Annotated[int | None, typer.Option(help="Generations at most.")] = None,
-    seed: Annotated[int | None, typer.Option(help="Seed of the search.")] = None,
-    workers: Annotated[int | None, typer.Option(help="Processes; 0: this one (default: all cores).")] = None,
-    cluster: Annotated[bool, typer.Option("--cluster", help="Use the workers of a scheduler that runs.")] = False,
-    scheduler: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Such as tcp://127.0.0.1:8786.")] = None,
-    scheduler_file: Annotated[Path | None, typer.Option(metavar="FILE", help="A file that it wrote.")] = None,
-    mode: Annotated[ModeName | None, typer.Option(help="rapid, or normal for debugging.")] = None,
-    smoke: Annotated[bool, typer.Option("--smoke", help="Two generations of four: does it all work?")] = False,
+    algorithm: Annotated[str | None, typer.Option(help="Search algorithm: cma (default), ga, pso or de.")] = None,
+    population: Annotated[int | None, typer.Option(help="Candidates per generation.")] = None,
+    generations: Annotated[int | None, typer.Option(help="Maximum number of generations.")] = None,
+    seed: Annotated[int | None, typer.Option(help="Seed of the random numbers.")] = None,
+    workers: Annotated[
+        int | None, typer.Option(help="Number of processes; 0 uses this process (default: all cores).")
+    ] = None,
+    cluster: Annotated[bool, typer.Option("--cluster", help="Use the workers of a running Dask scheduler.")] = False,
+    scheduler: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Address of the scheduler.")] = None,
+    scheduler_file: Annotated[Path | None, typer.Option(metavar="FILE", help="File written by the scheduler.")] = None,
+    mode: Annotated[ModeName | None, typer.Option(help="rapid: native code; normal: plain Python.")] = None,
+    smoke: Annotated[bool, typer.Option("--smoke", help="Try two generations of four candidates.")] = False,
     resume: Annotated[bool, typer.Option("--resume", help="Continue the newest search of this spec.")] = False,
     origin: Annotated[
-        str | None, typer.Option("--from", metavar="WHERE", help="Start at tuned, the middle of bounds, or a result.")
+        str | None, typer.Option("--from", metavar="WHERE", help="Start at tuned, middle (of the bounds), or a result.")
     ] = None,
-    adopt: Annotated[bool, typer.Option("--adopt", help="Write the best values beside the spec.")] = False,
-    force: Annotated[bool, typer.Option("--force", help="With --adopt: also over values that score better.")] = False,
+    adopt: Annotated[bool, typer.Option("--adopt", help="Write the best values to a file beside the spec.")] = False,
+    force: Annotated[
+        bool, typer.Option("--force", help="With --adopt: replace even values that score better.")
+    ] = False,
     trust: Trust = False,
     settings: Set = None,
     library: Libraries = None,
     json: Json = False,
 ) -> int:
-    """Tune a spec's parameters; every evaluation is kept, and an interrupted search continues.
+    """Tune the parameters of a spec. Every evaluation is saved, and an interrupted search can continue.
 
     Examples:
 

@@ -14,7 +14,6 @@ if TYPE_CHECKING:
     from gaitsim.text.document import Mapping
 
 
-
 def complete_references(incomplete: str) -> list[str]:
     """Components, for the shell's completion."""
     return [reference for reference in open_library(None, None).references() if reference.startswith(incomplete)]
@@ -26,7 +25,10 @@ def complete_kinds(incomplete: str) -> list[str]:
 
 
 Reference = Annotated[
-    str, typer.Argument(metavar="KIND/NAME", help="Such as muscle/geyer2003.", autocompletion=complete_references)
+    str,
+    typer.Argument(
+        metavar="KIND/NAME", help="Component, such as muscle/geyer2003.", autocompletion=complete_references
+    ),
 ]
 Spec = Annotated[
     Path, typer.Argument(metavar="SPEC", help="A spec, such as specs/hopping_geyer2003.yaml, or a result folder.")
@@ -37,10 +39,10 @@ Set = Annotated[
 ]
 Libraries = Annotated[
     list[Path] | None,
-    typer.Option("--library", metavar="FOLDER", help="Another folder of components; repeatable."),
+    typer.Option("--library", metavar="FOLDER", help="Additional folder of components; repeatable."),
 ]
-Trust = Annotated[bool, typer.Option("--trust", help="Run a result's code even if this machine does not know it.")]
-Json = Annotated[bool, typer.Option("--json", help="One JSON document on stdout.")]
+Trust = Annotated[bool, typer.Option("--trust", help="Run a result's components even if this machine did not make it.")]
+Json = Annotated[bool, typer.Option("--json", help="Print one JSON document on stdout.")]
 
 
 RESULTS = Path("results")

@@ -22,20 +22,22 @@ _ROWS = 20
 def profile(
     spec: Spec,
     settings: Set = None,
-    components: Annotated[bool, typer.Option("--components", help="All parts of one component as one row.")] = False,
+    components: Annotated[
+        bool, typer.Option("--components", help="One row for each component instead of each part.")
+    ] = False,
     plot: Annotated[bool, typer.Option("--plot", help="Draw the largest costs.")] = False,
-    folder: Annotated[Path, typer.Option(metavar="FOLDER", help="Where the picture of --plot goes.")] = Path(),
+    folder: Annotated[Path, typer.Option(metavar="FOLDER", help="Folder for the picture of --plot.")] = Path(),
     candidate: Annotated[
-        str | None, typer.Option(metavar="WHICH", help="Of a result: best, a rank, or GENERATION:INDEX.")
+        str | None, typer.Option(metavar="WHICH", help="Candidate of a result: best, a rank, or GENERATION:INDEX.")
     ] = None,
-    start: Annotated[bool, typer.Option("--start", help="Ignore tuned values beside the spec.")] = False,
+    start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
     trust: Trust = False,
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Show what each part, and each stage of MuJoCo, costs in run time.
+    """Measure the run time of each part and of each stage of MuJoCo.
 
-    The run is made several times, with a stopwatch in its native code and without.
+    The model runs several times, with and without a stopwatch in its native code.
 
     Examples:
 

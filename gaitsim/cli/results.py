@@ -17,7 +17,7 @@ Folder = Annotated[Path, typer.Argument(metavar="RESULT", help="A result folder.
 
 @app.command("list")
 def list_results(
-    folder: Annotated[Path, typer.Argument(metavar="[FOLDER]", help="Where results lie.")] = RESULTS,
+    folder: Annotated[Path, typer.Argument(metavar="[FOLDER]", help="Folder of the results.")] = RESULTS,
     json: Json = False,
 ) -> None:
     """List results, oldest first.
@@ -65,7 +65,9 @@ def show_result(folder: Folder, json: Json = False) -> None:
 @app.command("verify")
 def verify(
     folder: Folder,
-    everything: Annotated[bool, typer.Option("--all", help="Every candidate, not some and the best.")] = False,
+    everything: Annotated[
+        bool, typer.Option("--all", help="Verify every candidate, not only some and the best.")
+    ] = False,
     trust: Trust = False,
     json: Json = False,
 ) -> int:

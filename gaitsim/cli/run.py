@@ -26,30 +26,35 @@ _FAILED = 4
 
 def run(
     spec: Spec,
-    mode: Annotated[ModeName, typer.Option(help="Native code, or plain Python for debugging.")] = ModeName.rapid,
+    mode: Annotated[
+        ModeName, typer.Option(help="rapid: native code; normal: plain Python, for debugging.")
+    ] = ModeName.rapid,
     settings: Set = None,
     vary: Annotated[
         list[str] | None,
-        typer.Option(metavar="ADDRESS=VALUES", help="Values low:high:count or a,b,c; a table; repeatable."),
+        typer.Option(metavar="ADDRESS=VALUES", help="Values as low:high:count or a,b,c, one run each; repeatable."),
     ] = None,
     draws: Annotated[
         int | None,
-        typer.Option(metavar="COUNT", help="So many runs, each with every tuned value a little different, by chance."),
+        typer.Option(metavar="COUNT", help="Number of runs with randomly changed tuned values."),
     ] = None,
     within: Annotated[
-        str | None, typer.Option(metavar="SHARE", help="Of --draws: how different at most, as '1 %' (the default).")
+        str | None, typer.Option(metavar="SHARE", help="With --draws: largest relative change (default: '1 %').")
     ] = None,
-    seed: Annotated[int | None, typer.Option(help="Of --draws: the same seed draws the same (default: 1).")] = None,
+    seed: Annotated[int | None, typer.Option(help="With --draws: seed of the random numbers (default: 1).")] = None,
     out: Annotated[Path | None, typer.Option(metavar="FILE", help="Write every signal to a CSV file.")] = None,
     every: Annotated[
-        str | None, typer.Option(metavar="TIME", help="Of --out: one instant each '10 ms'; by default all.")
+        str | None,
+        typer.Option(metavar="TIME", help="With --out: time between instants, such as '10 ms' (default: every step)."),
     ] = None,
-    no_save: Annotated[bool, typer.Option("--no-save", help="Keep no result folder.")] = False,
+    no_save: Annotated[bool, typer.Option("--no-save", help="Do not save a result folder.")] = False,
     candidate: Annotated[
         str | None,
-        typer.Option(metavar="WHICH", help="Of a result: best, a rank, GENERATION:INDEX; of a study or draws, a run."),
+        typer.Option(
+            metavar="WHICH", help="Candidate of a result: best, a rank, GENERATION:INDEX, or the number of a run."
+        ),
     ] = None,
-    start: Annotated[bool, typer.Option("--start", help="Ignore tuned values beside the spec.")] = False,
+    start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
     trust: Trust = False,
     library: Libraries = None,
     json: Json = False,

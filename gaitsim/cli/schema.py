@@ -12,7 +12,9 @@ from gaitsim.cli.options import Json, Libraries, open_library
 
 
 def schema(
-    spec: Annotated[Path | None, typer.Argument(metavar="[SPEC]", help="Include the components beside it.")] = None,
+    spec: Annotated[
+        Path | None, typer.Argument(metavar="[SPEC]", help="Include the components beside this spec.")
+    ] = None,
     library: Libraries = None,
     json: Json = True,  # noqa: ARG001 (a schema is JSON anyway)
 ) -> None:

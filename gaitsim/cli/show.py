@@ -14,17 +14,17 @@ from gaitsim.study.opening import open_source
 
 def show(
     spec: Spec,
-    tree: Annotated[bool, typer.Option("--tree", help="Parts, with their components (the default).")] = False,
-    parameters: Annotated[bool, typer.Option("--parameters", help="Every number, with unit and source.")] = False,
-    connections: Annotated[bool, typer.Option("--connections", help="Every signal's way.")] = False,
+    tree: Annotated[bool, typer.Option("--tree", help="Parts and their components (the default).")] = False,
+    parameters: Annotated[bool, typer.Option("--parameters", help="Every number with its unit and source.")] = False,
+    connections: Annotated[bool, typer.Option("--connections", help="Every connection between parts.")] = False,
     mjcf: Annotated[bool, typer.Option("--mjcf", help="The mechanics as MuJoCo XML.")] = False,
-    start: Annotated[bool, typer.Option("--start", help="Ignore tuned values beside the spec.")] = False,
+    start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
     trust: Trust = False,
     settings: Set = None,
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Show what a spec resolves to: tree, parameters, connections, MuJoCo model.
+    """Show the resolved model: parts, parameters, connections, MuJoCo model.
 
     Example: gaitsim show specs/hopping_geyer2003.yaml --connections
     """

@@ -14,17 +14,17 @@ from gaitsim.study.opening import open_source
 
 def view(
     path: Annotated[Path, typer.Argument(metavar="RESULT", help="A result folder, or a spec.")],
-    speed: Annotated[float, typer.Option(help="0.25 is four times slower than it was.")] = 1.0,
-    paused: Annotated[bool, typer.Option("--paused", help="Begin with the first posture.")] = False,
+    speed: Annotated[float, typer.Option(help="Playback speed; 0.25 is a quarter of real time.")] = 1.0,
+    paused: Annotated[bool, typer.Option("--paused", help="Start paused at the first posture.")] = False,
     candidate: Annotated[
-        str | None, typer.Option(metavar="WHICH", help="Of a result: best, a rank, or GENERATION:INDEX.")
+        str | None, typer.Option(metavar="WHICH", help="Candidate of a result: best, a rank, or GENERATION:INDEX.")
     ] = None,
-    start: Annotated[bool, typer.Option("--start", help="Ignore tuned values beside a spec.")] = False,
+    start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
     settings: Set = None,
     trust: Trust = False,
     library: Libraries = None,
 ) -> None:
-    """Show a run in MuJoCo's viewer, in a loop. Space pauses, left and right step, up and down change the speed.
+    """Show a run in MuJoCo's viewer, repeatedly. Space pauses, left and right step, up and down change the speed.
 
     Examples:
 

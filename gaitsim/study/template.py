@@ -10,30 +10,30 @@ from gaitsim.text.document import Mapping, parse
 _README = """\
 # {title}
 
-A study with gaitsim: everything here is yours to change.
+A study with gaitsim. Change whatever you like.
 
 | file | what it is |
 |---|---|
-| `{origin}.yaml` | a model that gaitsim ships, as it is |
-| `my_{origin}.yaml` | the same with `controller/my_reflex` in one place |
-| `components/controller/my_reflex.py` | a component of your own: parameters, ports, one equation |
-| `tests/test_my_reflex.py` | its test, on plain numbers: `pytest` |
+| `{origin}.yaml` | a model of gaitsim, unchanged |
+| `my_{origin}.yaml` | the same model with `controller/my_reflex` as its feedback |
+| `components/controller/my_reflex.py` | your component: parameters, ports, one equation |
+| `tests/test_my_reflex.py` | its test; run it with `pytest` |
 
 ## Next steps
 
     gaitsim run my_{origin}.yaml                       # metrics of one run
-    gaitsim check my_{origin}.yaml --convergence       # is the step short enough?
-    gaitsim optimize my_{origin}.yaml --smoke          # a search of a few seconds; leave --smoke out for a whole one
+    gaitsim check my_{origin}.yaml --convergence       # is the time step short enough?
+    gaitsim optimize my_{origin}.yaml --smoke          # a search of a few seconds; without --smoke, a whole one
     gaitsim results list
-    gaitsim analyze results/RESULT                     # figures, video, report.html
-    gaitsim cite my_{origin}.yaml                      # BibTeX of what the model uses
+    gaitsim analyze results/RESULT                     # figures, a video and report.html
+    gaitsim cite my_{origin}.yaml                      # BibTeX for everything the model uses
 
 Change the equation in `components/controller/my_reflex.py`, then:
 
     gaitsim library check components                   # names, units, sources, bounds
     gaitsim library show controller/my_reflex --plot   # its curves
-    gaitsim library list                               # what else there is to swap in
-    gaitsim library new muscle my_muscle               # the next part of your own
+    gaitsim library list                               # all components that you can use instead
+    gaitsim library new muscle my_muscle               # another component of your own
 """
 _VARIANT = """\
 gaitsim: 1
