@@ -45,13 +45,14 @@ def cite(spec: Spec, settings: Set = None, trust: Trust = False, library: Librar
 
 def _algorithm(source: Source) -> tuple[str, ...]:
     """The keys of the search whose values are in use; none if nothing was tuned."""
-    from gaitsim.optimization.algorithms import SOURCES
+    from gaitsim.optimization.algorithms import ALGORITHMS
     from gaitsim.spec.schema import optimize_section
 
     if not source.starts:
         return ()
     searched = source.manifest.get("search", {}).get("algorithm")
-    return SOURCES.get(searched or optimize_section(source.document).algorithm, ())
+    entry = ALGORITHMS.get(searched or optimize_section(source.document).algorithm)
+    return entry.citations if entry else ()
 
 
 def _few(names: tuple[str, ...]) -> str:

@@ -12,6 +12,7 @@ import typer
 from gaitsim.cli import console
 from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
 from gaitsim.errors import command
+from gaitsim.optimization.algorithms import ALGORITHMS, DEFAULT, alternatives
 
 if TYPE_CHECKING:
     from gaitsim.optimization.evaluation import Evaluation
@@ -21,11 +22,12 @@ if TYPE_CHECKING:
     from gaitsim.study.workplace import Workplace
 
 _INTERRUPTED = 130
+_ALGORITHMS = alternatives(f"{name} (default)" if name == DEFAULT else name for name in ALGORITHMS)
 
 
 def optimize(
     spec: Spec,
-    algorithm: Annotated[str | None, typer.Option(help="Search algorithm: cma (default), ga, pso or de.")] = None,
+    algorithm: Annotated[str | None, typer.Option(help=f"Search algorithm: {_ALGORITHMS}.")] = None,
     population: Annotated[int | None, typer.Option(help="Candidates per generation.")] = None,
     generations: Annotated[int | None, typer.Option(help="Maximum number of generations.")] = None,
     seed: Annotated[int | None, typer.Option(help="Seed of the random numbers.")] = None,

@@ -1,19 +1,15 @@
-"""Search algorithms by name, each from a library, behind ask and tell."""
+"""Search algorithms by name, each from a library, behind ask and tell: one entry each in `ALGORITHMS`."""
 
 from __future__ import annotations
 
-import math
-import sys
-import warnings
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
-from functools import partial
-from typing import Any, Protocol
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Protocol
 
-import numpy as np
+from gaitsim.errors import Usage
 
-from gaitsim.optimization.populations import Pymoo
-from gaitsim.optimization.problem import Problem, Vector
+if TYPE_CHECKING:
+    from gaitsim.optimization.problem import Problem, Vector
 
 
 class Algorithm(Protocol):
@@ -29,95 +25,60 @@ class Algorithm(Protocol):
 
     def stop(self) -> str | None: ...
 
-    def distribution(self) -> tuple[Vector, Vector] | None:
-        """Mean and standard deviation of where it searches, if it has such a thing."""
+
+@dataclass(frozen=True)
+class Entry:
+    """An algorithm that a spec or `--algorithm` can name.
+
+    Attributes:
+        factory: Makes it of a problem, a seed and the candidates a generation (None: its own choice).
+        citations: What a paper cites that used it: keys of library/references.bib.
+        extra: The extra of gaitsim that its library is in; empty if it is always installed.
+    """
+
+    name: str
+    factory: Callable[[Problem, int, int | None], Algorithm]
+    citations: tuple[str, ...]
+    extra: str = ""
+
+    def make(self, problem: Problem, seed: int, population: int | None) -> Algorithm:
+        """The algorithm at its start. Errors: Usage if its library is not installed."""
+        try:
+            return self.factory(problem, seed, population)
+        except ImportError as error:
+            library = (error.name or self.extra).partition(".")[0]
+            rule = f"--algorithm {self.name}: needs {library}, which is not installed"
+            raise Usage(f"{rule}; install it: pip install 'gaitsim[{self.extra}]'.") from error
 
 
-_REASONS = {
-    "tolfun": "the costs of the last generations hardly differ",
-    "tolfunhist": "the best costs of the last generations hardly differ",
-    "tolflatfitness": "all candidates have the same cost",
-    "tolx": "the steps became too small to matter",
-    "tolfacupx": "the steps grew without end; start with a larger spread",
-    "tolupsigma": "the steps grew without end",
-    "tolxstagnation": "the best candidates hardly move",
-    "tolstagnation": "the median cost has stagnated",
-    "conditioncov": "the covariance became ill-conditioned",
-    "noeffectaxis": "steps along an axis have no effect any more",
-    "noeffectcoord": "steps in a coordinate have no effect any more",
-}
+def _cma_es(problem: Problem, seed: int, population: int | None) -> Algorithm:
+    from gaitsim.optimization.cma_es import CmaEs
+
+    return CmaEs(problem, seed, population)
 
 
-@contextmanager
-def _absent(*modules: str) -> Iterator[None]:
-    """Within, these cannot be imported. pycma asks for them in passing and does without; they take a second."""
-    before = {name: sys.modules[name] for name in modules if name in sys.modules}
-    sys.modules.update(dict.fromkeys(modules))  # type: ignore[arg-type]
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            yield
-    finally:
-        for name in modules:
-            del sys.modules[name]
-        sys.modules.update(before)
+def _pymoo(kind: str) -> Callable[[Problem, int, int | None], Algorithm]:
+    """One of pymoo's algorithms by the name of its class."""
+
+    def factory(problem: Problem, seed: int, population: int | None) -> Algorithm:
+        from gaitsim.optimization.populations import Pymoo
+
+        return Pymoo(kind, problem, seed, population)
+
+    return factory
 
 
-class CmaEs:
-    """CMA-ES by pycma, drawing from a stream of its own."""
-
-    def __init__(self, problem: Problem, seed: int, population: int | None) -> None:
-        with _absent("matplotlib", "scipy.stats"):
-            import cma
-
-        stream = np.random.default_rng([seed, 0])
-        low, high = problem.bounds
-        options: dict[str, Any] = {
-            "bounds": [problem.scaled(list(low)), problem.scaled(list(high))],
-            "randn": lambda *shape: stream.standard_normal(shape),
-            "seed": math.nan,
-            "verbose": -9,
-            "verb_log": 0,
-            "verb_disp": 0,
-            "signals_filename": None,
-            "maxiter": math.inf,
-        }
-        if len(problem.variables) == 1:
-            options["maxstd"] = math.inf  # pycma 4 cannot limit the spread of a single number
-        if population is not None:
-            options["popsize"] = population
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            self._strategy = cma.CMAEvolutionStrategy(problem.scaled(problem.start), 1.0, options)
-
-    @property
-    def population(self) -> int:
-        return int(self._strategy.popsize)
-
-    def ask(self) -> list[Vector]:
-        asked: list[Vector] = self._strategy.ask()
-        return asked
-
-    def tell(self, vectors: Sequence[Vector], costs: Sequence[float]) -> None:
-        self._strategy.tell(list(vectors), list(costs))
-
-    def stop(self) -> str | None:
-        found = self._strategy.stop()
-        reasons = dict.fromkeys(_REASONS.get(name, name) for name in found)
-        return "; ".join(reasons) or None
-
-    def distribution(self) -> tuple[Vector, Vector] | None:
-        return np.asarray(self._strategy.result.xfavorite), np.asarray(self._strategy.result.stds)
+_ENTRIES = (
+    Entry("cma", _cma_es, ("hansen2001", "hansen2019")),
+    Entry("ga", _pymoo("GA"), ("blank2020",), "populations"),
+    Entry("pso", _pymoo("PSO"), ("kennedy1995", "blank2020"), "populations"),
+    Entry("de", _pymoo("DE"), ("storn1997", "blank2020"), "populations"),
+)
+ALGORITHMS = {entry.name: entry for entry in _ENTRIES}
+DEFAULT = _ENTRIES[0].name
 
 
-ALGORITHMS: dict[str, Callable[[Problem, int, int | None], Algorithm]] = {
-    "cma": CmaEs,
-    **{name: partial(Pymoo, name) for name in ("ga", "pso", "de")},
-}
-# What a paper cites that used one: keys of library/references.bib.
-SOURCES: dict[str, tuple[str, ...]] = {
-    "cma": ("hansen2001", "hansen2019"),
-    "ga": ("blank2020",),
-    "pso": ("kennedy1995", "blank2020"),
-    "de": ("storn1997", "blank2020"),
-}
+def alternatives(words: Iterable[str]) -> str:
+    """Words as they are offered: cma, ga, pso or de."""
+    *others, last = words
+    return " or ".join([", ".join(others), last])

@@ -29,13 +29,6 @@ class Evaluator(Protocol):
 Watcher = Callable[["Progress"], None]
 
 
-@dataclass(frozen=True)
-class Budget:
-    """How many generations at most."""
-
-    generations: int
-
-
 @dataclass
 class Progress:
     """Where a search stands.
@@ -74,16 +67,16 @@ class Search:
         self.journal, self.file, self.took, self.watch = journal, generations, took, watch
         self.progress = Progress()
 
-    def run(self, budget: Budget) -> Progress:
-        """Search until the budget is spent or the algorithm stops.
+    def run(self, generations: int) -> Progress:
+        """Search until so many generations are done or the algorithm stops.
 
         Errors: DamagedJournal; what the evaluator raises. Everything that arrived is in the journal.
         """
         progress = self.progress
         self._evaluated(0, [tuple(self.problem.start)])
         while not progress.stop:
-            if progress.generation >= budget.generations:
-                progress.stop = f"{budget.generations} generations done"
+            if progress.generation >= generations:
+                progress.stop = f"{generations} generations done"
                 break
             vectors = self.algorithm.ask()
             values = [tuple(self.problem.values(vector)) for vector in vectors]

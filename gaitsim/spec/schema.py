@@ -9,6 +9,7 @@ from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationEr
 from pydantic_core import PydanticCustomError
 
 from gaitsim.errors import Faults, Mark
+from gaitsim.optimization.algorithms import ALGORITHMS, DEFAULT, alternatives
 from gaitsim.text.document import Mapping, Node, Sequence, plain
 from gaitsim.text.quantity import BadQuantity, example, needed, quantity_of
 from gaitsim.text.spelling import respelled
@@ -91,7 +92,7 @@ class SimulateSection(_Section):
 class SearchSection(_Section):
     """How a search goes; the command line may say otherwise."""
 
-    algorithm: str = Field(default="cma", description="Search algorithm: cma, ga, pso or de.")
+    algorithm: str = Field(default=DEFAULT, description=f"Search algorithm: {alternatives(ALGORITHMS)}.")
     population: Annotated[int, Field(ge=2)] | None = Field(default=None, description="Candidates a generation.")
     generations: int = Field(default=100, ge=1, description="Generations at most.")
     seed: int = Field(default=1, ge=0, description="Seed of the search.")

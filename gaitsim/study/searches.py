@@ -76,7 +76,7 @@ def begun(request: Request, root: Path) -> Tuning:
         raise InvalidSpec(Fault(f"this spec has no objective; {move}.", Mark(str(request.spec))))
     search = _search_of(source, request)
     problem = problem_of(model, search["spread_factor"])
-    algorithm = ALGORITHMS[search["algorithm"]](problem, search["seed"], search["population"])
+    algorithm = ALGORITHMS[search["algorithm"]].make(problem, search["seed"], search["population"])
     search["population"] = algorithm.population
     mode: Mode = "normal" if request.mode == "normal" else "rapid"
     each = episode_models(source.document, source.library, source.name)

@@ -17,7 +17,7 @@ from gaitsim.optimization.failures import reason_of
 from gaitsim.optimization.history import GenerationsFile, parameters_csv
 from gaitsim.optimization.journal import Journal, read
 from gaitsim.optimization.problem import Problem
-from gaitsim.optimization.search import Budget, Progress, Search
+from gaitsim.optimization.search import Progress, Search
 from gaitsim.results.bundle import Bundle
 from gaitsim.results.lock import Lock
 from gaitsim.results.manifest import FORMAT, write_manifest
@@ -70,7 +70,7 @@ class Tuning:
             with ExitStack() as closing:
                 write_manifest(self.folder, self.manifest | {"status": "running"})
                 work = self._search(closing, workplace, watch, say)
-                progress = work.run(Budget(self.generations))
+                progress = work.run(self.generations)
                 self._finish(progress)
         except BaseException:
             with suppress(OSError):
@@ -90,7 +90,7 @@ class Tuning:
         rows, timings = GenerationsFile(self.folder), Timings(self.folder)
         closing.callback(rows.close)
         closing.callback(timings.close)
-        algorithm = ALGORITHMS[asked["algorithm"]](self.problem, asked["seed"], asked["population"])
+        algorithm = ALGORITHMS[asked["algorithm"]].make(self.problem, asked["seed"], asked["population"])
         return Search(self.problem, algorithm, evaluator, journal, rows, timings.add, watch)
 
     def discard_if_empty(self) -> bool:

@@ -12,7 +12,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaitsim.optimization.algorithms import ALGORITHMS, CmaEs
+from gaitsim.optimization.algorithms import ALGORITHMS
+from gaitsim.optimization.cma_es import CmaEs
 from gaitsim.optimization.problem import Problem, Variable, Vector
 from gaitsim.units import parse_unit
 
@@ -32,7 +33,7 @@ def asked(
     name: str, seed: int, generations: int = 6, between: Callable[[], object] = lambda: None
 ) -> list[list[Vector]]:
     tuned = problem(4)
-    algorithm = ALGORITHMS[name](tuned, seed, None)
+    algorithm = ALGORITHMS[name].make(tuned, seed, None)
     found = []
     for _ in range(generations):
         between()
@@ -80,7 +81,7 @@ def test_pythons_hash_has_no_part_in_it(tmp_path: Path) -> None:
 def test_populations_get_better_within_the_bounds(name: str, population: int) -> None:
     """Failures are infinite costs, and are no one's best."""
     tuned = problem(3)
-    algorithm = ALGORITHMS[name](tuned, 1, population)
+    algorithm = ALGORITHMS[name].make(tuned, 1, population)
     assert algorithm.population == population
     best = []
     for _ in range(60):
@@ -91,9 +92,6 @@ def test_populations_get_better_within_the_bounds(name: str, population: int) ->
         costs = [np.inf if each[0] > 0.9 else sphere(each) for each in values]
         algorithm.tell(vectors, costs)
         best.append(min(costs))
-    found = algorithm.distribution()
-    assert found is not None
-    assert sphere(tuned.values(found[0])) == min(best)
     assert population < 40 or min(best) < 1e-3
 
 

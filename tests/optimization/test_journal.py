@@ -15,12 +15,12 @@ from typing import Any
 import pytest
 
 from gaitsim.errors import GaitsimError
-from gaitsim.optimization.algorithms import CmaEs
+from gaitsim.optimization.cma_es import CmaEs
 from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict, evaluation_of
 from gaitsim.optimization.history import GenerationsFile
 from gaitsim.optimization.journal import DamagedJournal, Journal, evaluations_in, old_form_notices
 from gaitsim.optimization.problem import Problem, Variable, hash_of
-from gaitsim.optimization.search import Budget, Search
+from gaitsim.optimization.search import Search
 from gaitsim.units import parse_unit
 
 from .searches import signed
@@ -69,7 +69,7 @@ def search(folder: Path, evaluate: Evaluate, generations: int = 4) -> None:
     algorithm = CmaEs(PROBLEM, 1, 5)
     try:
         took, watch = (lambda *_: None), (lambda _: None)
-        Search(PROBLEM, algorithm, evaluate, journal, rows, took, watch).run(Budget(generations))
+        Search(PROBLEM, algorithm, evaluate, journal, rows, took, watch).run(generations)
     finally:
         journal.close()
         rows.close()
