@@ -145,6 +145,12 @@ def with_article(noun: str) -> str:
     return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
 
 
+def alternatives(words: Iterable[str]) -> str:
+    """Words as they are offered: cma, ga, pso or de."""
+    *others, last = words
+    return " or ".join([", ".join(others), last])
+
+
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """A hint at the nearest known word, or the list of all known ones."""
     words = sorted(known)

@@ -13,7 +13,8 @@ import typer
 
 from gaitsim.cli import console
 from gaitsim.cli.options import Json, Libraries, Set, Trust, seconds_of
-from gaitsim.errors import GaitsimError, SimulationFailed, Usage
+from gaitsim.errors import GaitsimError, SimulationFailed, Usage, alternatives
+from gaitsim.exchange.formats import FORMATS
 
 if TYPE_CHECKING:
     from gaitsim.analysis.drawings.drawing import Drawing
@@ -23,12 +24,8 @@ if TYPE_CHECKING:
     from gaitsim.study.source import Source
 
 
-class Export(StrEnum):
-    """Formats of signals."""
-
-    sto = "sto"
-    csv = "csv"
-    nc = "nc"
+Export = StrEnum("Export", {ending: ending for ending in FORMATS})  # type: ignore[misc]  # one declaration of formats
+_EXPORTS = alternatives(format.words for format in FORMATS.values())
 
 
 class Format(StrEnum):
@@ -64,7 +61,7 @@ def analyze(
         ),
     ] = None,
     export: Annotated[
-        list[Export] | None, typer.Option(help="Write all signals as OpenSim storage, CSV or netCDF; repeatable.")
+        list[Export] | None, typer.Option(help=f"Write all signals as {_EXPORTS}; repeatable.")
     ] = None,
     every: Annotated[
         str | None,

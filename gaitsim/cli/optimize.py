@@ -11,8 +11,8 @@ import typer
 
 from gaitsim.cli import console
 from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
-from gaitsim.errors import command
-from gaitsim.optimization.algorithms import ALGORITHMS, DEFAULT, alternatives
+from gaitsim.errors import alternatives, command
+from gaitsim.optimization.algorithms import ALGORITHMS, DEFAULT
 
 if TYPE_CHECKING:
     from gaitsim.optimization.evaluation import Evaluation

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
@@ -76,9 +76,3 @@ _ENTRIES = (
 )
 ALGORITHMS = {entry.name: entry for entry in _ENTRIES}
 DEFAULT = _ENTRIES[0].name
-
-
-def alternatives(words: Iterable[str]) -> str:
-    """Words as they are offered: cma, ga, pso or de."""
-    *others, last = words
-    return " or ".join([", ".join(others), last])

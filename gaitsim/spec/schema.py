@@ -8,8 +8,8 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from gaitsim.errors import Faults, Mark
-from gaitsim.optimization.algorithms import ALGORITHMS, DEFAULT, alternatives
+from gaitsim.errors import Faults, Mark, alternatives
+from gaitsim.optimization.algorithms import ALGORITHMS, DEFAULT
 from gaitsim.text.document import Mapping, Node, Sequence, plain
 from gaitsim.text.quantity import BadQuantity, example, needed, quantity_of
 from gaitsim.text.spelling import respelled

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from gaitsim.cli import console
 from gaitsim.errors import ExitCode, GaitsimError
+from gaitsim.exchange.formats import FORMATS, Export
 from gaitsim.results.store import CannotSave
 
 if TYPE_CHECKING:
@@ -88,7 +89,7 @@ class Products:
             hear(k, len(makers))
 
     def export(self, replays: Sequence[Replay], formats: Sequence[str], every: float | None) -> None:
-        """Write the signals of each run in each format: sto, csv, nc; one instant in `every` seconds, or all."""
+        """Write the signals of each run in each of `FORMATS` that is named; one instant in `every` seconds, or all."""
         for replay in replays:
             for ending in formats:
                 path = self.folder / "exports" / f"{_plain(replay.label)}.{ending}"
@@ -149,21 +150,12 @@ def _renamed(drawing: Drawing, taken: set[str]) -> Drawing:
 
 def _write(replay: Replay, path: Path, every: float | None) -> Path:
     """Errors: OSError, Usage."""
+    from gaitsim.analysis.replays.replay import dataset
+
     if every is not None:
         replay = replay.every(every)
-    if path.suffix == ".sto":
-        from gaitsim.exchange.sto import write_sto
-
-        write_sto(path, replay.trajectory, replay.name)
-    elif path.suffix == ".csv":
-        from gaitsim.exchange.csv import write_csv
-
-        write_csv(path, replay.trajectory)
-    else:
-        from gaitsim.analysis.replays.replay import dataset
-        from gaitsim.exchange.labelled import write_netcdf
-
-        write_netcdf(path, dataset(replay))
+    made = Export(replay.name, replay.trajectory, partial(dataset, replay))
+    FORMATS[path.suffix.removeprefix(".")].write(path, made)
     return path
 
 
