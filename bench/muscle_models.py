@@ -28,7 +28,7 @@ from rich.table import Table
 from gaitsim.components.find import Library, shipped_folder
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
-from gaitsim.study.opening import open_source
+from gaitsim.study.opening import Opening
 
 SPEC = Path(__file__).resolve().parents[1] / "specs" / "hopping_leg_mass.yaml"
 REPEATS = 5
@@ -56,8 +56,8 @@ def tuned(muscle: str, words: Sequence[str]) -> Row:
         command = [sys.executable, "-m", "gaitsim.cli.main", "optimize", str(SPEC), "--set", f"extensor.use={muscle}"]
         ran = subprocess.run([*command, *words, "--json"], cwd=folder, stdout=subprocess.PIPE, text=True, check=True)
         search = json.loads(ran.stdout)
-        simulator = Simulator(open_source(Path(folder) / search["result"], None, None).model())
-    before = Simulator(open_source(SPEC, [f"extensor.use={muscle}"], None, tuned=False).model()).run()
+        simulator = Simulator(Opening(Path(folder) / search["result"]).source().model())
+    before = Simulator(Opening(SPEC, (f"extensor.use={muscle}",), tuned=False).source().model()).run()
     after = simulator.run(recorded=True)
     given, taken = work_per_hop(after)
     return Row(

@@ -16,7 +16,7 @@ from gaitsim.cluster.local import Local
 from gaitsim.optimization.evaluation import Candidate
 from gaitsim.optimization.search import Evaluator
 from gaitsim.results.bundle import Bundle
-from gaitsim.study.opening import source_of_spec
+from gaitsim.study.opening import Opening
 
 SPEC = Path(__file__).resolve().parents[1] / "specs" / "pendulum_pid.yaml"
 WORKERS = 2
@@ -105,7 +105,7 @@ def _own_memory(process: psutil.Process) -> float:
 
 
 def _bundle(duration: float) -> Bundle:
-    source = source_of_spec(SPEC, [f"simulate.duration={duration!r} s"], None, tuned=False)
+    source = Opening(SPEC, (f"simulate.duration={duration!r} s",), tuned=False).source()
     return source.bundle([source.model()])
 
 

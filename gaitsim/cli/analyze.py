@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Trust, seconds_of
+from gaitsim.cli.options import Json, Libraries, Set, Trust, opening
 from gaitsim.errors import GaitsimError, SimulationFailed, Usage, alternatives
 from gaitsim.exchange.formats import FORMATS
 
@@ -110,12 +110,13 @@ def analyze(
     """
     from gaitsim.analysis.report.figures import missing
     from gaitsim.study.products import Products, default_figures
+    from gaitsim.study.times import seconds_of
 
     if against is not None and not plot:
         raise Usage(f"--against {against}: name what is drawn against it, such as --plot '*.force'.")
     window = seconds_of("--from-time", from_time), seconds_of("--to-time", to_time)
     spacing = seconds_of("--every", every)
-    products = Products(Path(), quiet=json)
+    products = Products(Path(), listener=console.Talk(json))
     sources = _opened(paths, candidate, settings, library, start, trust, products)
     products.folder = _made(folder or _default_folder(sources))
     with console.waiting("running again", quiet=json):
@@ -149,7 +150,7 @@ def _opened(
     Errors: GaitsimError if nothing can be.
     """
     from gaitsim.results.manifest import is_result
-    from gaitsim.study.opening import open_source
+
 
     found: list[tuple[Path, str, Source]] = []
     for path in paths:
@@ -161,7 +162,7 @@ def _opened(
             if label in (known for _, known, _ in found):
                 label = f"{path} {which}" if which else str(path)
             try:
-                found.append((path, label, open_source(path, settings, library, not start, trust, which)))
+                found.append((path, label, opening(path, settings, library, not start, trust, which).source()))
             except GaitsimError as error:
                 products.refuse_if_others(error, len(paths) * len(candidates or [None]))
     if not found:

@@ -8,8 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust
-from gaitsim.study.opening import open_source
+from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust, opening
 
 if TYPE_CHECKING:
     from gaitsim.errors import Fault
@@ -51,7 +50,7 @@ def check(
     from gaitsim.study.starts import Starts
 
     # What is simulated is what `run` would simulate.
-    source = open_source(spec, settings, library, tuned=convergence, trusted=trust)
+    source = opening(spec, settings, library, tuned=convergence, trusted=trust).source()
     rows = variants(source.document, [])
     models = [source.model(row.document) for row in rows]
     starts = Starts(source)

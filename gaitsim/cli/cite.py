@@ -5,8 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust
-from gaitsim.study.opening import open_source
+from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust, opening
 
 if TYPE_CHECKING:
     from gaitsim.study.source import Source
@@ -21,14 +20,13 @@ def cite(spec: Spec, settings: Set = None, trust: Trust = False, library: Librar
 
     gaitsim cite results/2026-11-22-hopping-3f9c --json
     """
-    from gaitsim.cli.options import open_library
     from gaitsim.components.bibliography import read_bibliography
     from gaitsim.results.citation import citations
 
-    source = open_source(spec, settings, library, trusted=trust)
+    source = opening(spec, settings, library, trusted=trust).source()
     model = source.model()
     # A result keeps its components but no bibliography: that is the library's.
-    folders = [*source.library.folders, *open_library(spec, library).folders]
+    folders = [*source.library.folders, *opening(spec, None, library).library().folders]
     found = citations(model, read_bibliography(folders), _algorithm(source))
     if json:
         console.give_json(

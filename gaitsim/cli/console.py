@@ -7,11 +7,12 @@ import math
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
+from dataclasses import dataclass
 from threading import Event, Thread
 from typing import Any
 
-from gaitsim.errors import GaitsimError
+from gaitsim.errors import ExitCode, GaitsimError
 
 PLAIN_EVERY = 5.0  # seconds between lines of progress where stderr is no terminal
 
@@ -68,6 +69,29 @@ def waiting(what: str, quiet: bool = False) -> Iterator[None]:
             rewrite("")
 
 
+@dataclass(frozen=True)
+class Talk:
+    """What a study says, on stderr. quiet: no lines of progress where that is no terminal."""
+
+    quiet: bool = False
+
+    def say(self, text: str) -> None:
+        """As it is."""
+        say(text)
+
+    def say_error(self, error: GaitsimError) -> None:
+        """Every fault of it."""
+        say_error(error)
+
+    def progress(self, what: str) -> Callable[[int, int], None]:
+        """One line of progress."""
+        return progress(what, self.quiet)
+
+    def waiting(self, what: str) -> AbstractContextManager[None]:
+        """A line every few seconds."""
+        return waiting(what, self.quiet)
+
+
 def give(text: str) -> None:
     """Data: on stdout, as it is."""
     print(text)
@@ -96,6 +120,14 @@ def say_error(error: GaitsimError) -> None:
     """Every fault of an error, one after the other."""
     for fault in error.faults:
         say(str(fault))
+
+
+def code_after(error: GaitsimError | None, code: int) -> int:
+    """Say what was not kept, if something was not; the exit code of a command that had `code` otherwise."""
+    if error is None:
+        return code
+    say_error(error)
+    return ExitCode(error.exit_code)
 
 
 def error_data(error: GaitsimError) -> dict[str, Any]:

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Reference, open_library
+from gaitsim.cli.options import Json, Libraries, Reference
 from gaitsim.cli.options import complete_kinds as _kinds
 from gaitsim.cli.options import complete_references as _references
+from gaitsim.study.opening import open_library
 
 if TYPE_CHECKING:
     from gaitsim.components.composite import ComponentFile
@@ -36,7 +37,7 @@ def list_components(
     from gaitsim.components.describe import described
     from gaitsim.errors import Usage, did_you_mean
 
-    parts = open_library(None, library)
+    parts = open_library(None, library or ())
     references = parts.references(kind)
     if not references:
         kinds = {reference.split("/")[0] for reference in parts.references()}
@@ -73,7 +74,7 @@ def show_component(
 
     if settings and not plot:
         raise Usage("--set says at which values curves are drawn; add --plot.")
-    component = open_library(None, library).find(reference)
+    component = open_library(None, library or ()).find(reference)
     found = described(component)
     picture = _drawn(component, settings or [], folder) if plot else None
     if json:
@@ -149,7 +150,7 @@ def new_component_file(
     from gaitsim.components.skeleton import new_component, test_of
     from gaitsim.study.new_files import write_new
 
-    parts = open_library(folder / "spec.yaml", library)
+    parts = open_library(folder / "spec.yaml", library or ())
     file, text = new_component(kind, name, parts, like)
     made = {folder / "components" / kind / file: text}
     if file.endswith(".py"):
@@ -169,7 +170,7 @@ def _asked(what: list[str], folders: list[Path] | None) -> Iterator[tuple[str, L
     from gaitsim.components.review import components_in
     from gaitsim.errors import Usage
 
-    everything = open_library(None, folders)
+    everything = open_library(None, folders or ())
     for word in what or [shown(folder) for folder in everything.folders]:
         path = Path(word)
         if word in everything.references() or not path.exists():

@@ -8,15 +8,11 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, ModeName, Set, Spec, Trust
+from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust, opening
 from gaitsim.errors import command
-from gaitsim.study.keeping import Keeping
 
 if TYPE_CHECKING:
     from gaitsim.study.limits import Hunt, Limit
-    from gaitsim.study.source import Source
-
-_FINEST = 1e-6
 
 
 def limit(
@@ -55,49 +51,15 @@ def limit(
 
     Example: gaitsim limit specs/walking_geyer2010_perturbed.yaml --vary push.strength='0 N:1000 N'
     """
-    from dataclasses import replace
+    from gaitsim.study.limits import Scan, hunted
 
-    from gaitsim.errors import Usage
-    from gaitsim.optimization.limit import Bracket
-    from gaitsim.results.manifest import is_result
-    from gaitsim.spec.study import span
-    from gaitsim.study.limits import Hunt, Limit, until_of
-    from gaitsim.study.opening import only_row, open_source, started_from
-
-    _check_numbers(points, tolerance)
-    limits = [Limit(*span(text), Bracket(points, tolerance)) for text in vary]
-    source = open_source(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)
-    if origin is not None:
-        if is_result(spec):
-            raise Usage(f"--from {origin}: {spec} is a result, which has its own values; name a spec, or drop --from.")
-        source, notices = started_from(replace(source, notices=()), spec, origin, trust)
-        source = replace(source, notices=tuple(notices))
-    row = only_row(source, spec)
-    model = source.model(row.document)
-    for notice in dict.fromkeys([*source.notices, *model.notices]):
-        console.say(notice)
-    hunt = Hunt(source, row.document, row.settings, limits, until_of(until, model), mode.value)
-    hunt.run(console.progress("runs", quiet=json))
-    keeping = _kept(None if no_save else source, hunt)
+    opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)
+    talk = console.Talk(json)
+    hunt = hunted(opened, vary, until, Scan(points, tolerance), origin, mode.value, talk)
+    hunt.run(talk.progress("runs"))
+    keeping = hunt.kept(None if no_save else RESULTS)
     _report(hunt, keeping.folder, json)
-    return keeping.code(0)
-
-
-def _check_numbers(points: int, tolerance: float) -> None:
-    from gaitsim.errors import Usage
-
-    if points < 2:
-        raise Usage(f"--points {points}: a scan has at least 2 values, the two ends.")
-    if not _FINEST <= tolerance <= 1:
-        raise Usage(f"--tolerance {tolerance:g}: this is a part of the range, from {_FINEST:g} to 1, such as 0.01.")
-
-
-def _kept(source: Source | None, hunt: Hunt) -> Keeping:
-    keeping = Keeping(source, hunt.models, hunt.mode)
-    for settings, outcome in hunt.rows:
-        keeping.add(settings, outcome)
-    keeping.close()
-    return keeping
+    return console.code_after(keeping.error, 0)
 
 
 def _report(hunt: Hunt, folder: Path | None, json: bool) -> None:

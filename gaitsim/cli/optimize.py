@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust
+from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust, opening
 from gaitsim.errors import alternatives, command
 from gaitsim.optimization.algorithms import ALGORITHMS, DEFAULT
 
@@ -75,7 +75,7 @@ def optimize(
     if adopt and is_result(spec):
         raise Usage(f"--adopt writes beside a spec, and {spec} is a result; name the spec, with --resume.")
     request = Request(
-        spec=spec,
+        opening=opening(spec, settings, library, tuned=False, trusted=trust),
         algorithm=algorithm,
         population=population,
         generations=generations,
@@ -83,9 +83,6 @@ def optimize(
         mode=mode.value if mode else None,
         smoke=smoke,
         origin=origin,
-        settings=settings,
-        library=library,
-        trust=trust,
     )
     workplace = Workplace(workers, cluster, scheduler, scheduler_file)
     workplace.check()

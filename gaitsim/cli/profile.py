@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust
-from gaitsim.study.opening import only_row, open_source
+from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust, opening
+from gaitsim.study.opening import only_row
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -47,7 +47,7 @@ def profile(
     """
     from gaitsim.simulation.profile import profile as measured
 
-    source = open_source(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)
+    source = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate).source()
     model = source.model(only_row(source, spec).document)
     for notice in dict.fromkeys([*source.notices, *model.notices]):
         console.say(notice)

@@ -2,24 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust, seconds_of
+from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust, opening
 from gaitsim.errors import SimulationFailed, command
-from gaitsim.study.keeping import Keeping
-from gaitsim.study.opening import open_source
 
 if TYPE_CHECKING:
     from gaitsim.model import Model
-    from gaitsim.optimization.draws import Draws
     from gaitsim.simulation.outcome import Outcome
     from gaitsim.spec.study import Variant
-    from gaitsim.study.starts import Starts
+    from gaitsim.study.runs import Runs
 
 _FAILED = 4
 
@@ -73,116 +70,33 @@ def run(
 
     gaitsim run results/2026-11-22-hopping-3f9c --candidate 2
     """
-    from gaitsim.cli.draws import drawn_models, draws_asked
-    from gaitsim.errors import Usage
-    from gaitsim.spec.study import variants
-    from gaitsim.study.starts import Starts
+    from gaitsim.study.draws import draws_asked
+    from gaitsim.study.runs import Places, prepared
 
     drawn = draws_asked(draws, within, seed, vary or [], out)
-    source = open_source(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)
-    rows = variants(source.document, vary or [])
-    if out is not None and len(rows) > 1:
-        raise Usage("--out writes one trajectory; drop --vary or study:, or --set one value.")
-    _check_places(out, no_save)
-    models = [source.model(row.document) for row in rows]
-    spacing = _spacing(every, out, models)
-    _say(dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]))
-    starts = Starts(source)
-    each = drawn_models(models, drawn, spec) if drawn else models
-    rows = rows * drawn.count if drawn else rows
-    single = len(rows) == 1 and not rows[0].settings
-    keeping = Keeping(None if no_save else source, models, mode.value, drawn)
-    outcomes: list[Outcome] = []
+    opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)
+    places, talk = Places(None if no_save else RESULTS, out, every), console.Talk(json)
+    runs = prepared(opened, vary or [], drawn, mode.value, places, talk)
     try:
-        for row, outcome in zip(rows, _outcomes(each, mode, starts, single, out is not None, json), strict=True):
-            outcomes.append(outcome)
-            keeping.add(row.settings, outcome)
-        keeping.close()
+        runs.run(talk)
     except KeyboardInterrupt:
-        keeping.close("interrupted")
-        if outcomes:
-            _report(rows[: len(outcomes)], outcomes, models, mode, keeping.folder, json, drawn)
+        if runs.outcomes:
+            _report(runs, json)
         raise
-    if out is not None and outcomes[0].trajectory is not None:
-        from gaitsim.results.store import save_trajectory
-
-        with keeping.noting():
-            save_trajectory(out, outcomes[0] if spacing is None else outcomes[0].every(spacing))
-    _report(rows, outcomes, models, mode, keeping.folder, json, drawn)
-    _say_endings(rows, outcomes, drawn)
-    return keeping.code(_FAILED if all(outcome.status == "failed" for outcome in outcomes) else 0)
+    _report(runs, json)
+    _say_endings(runs)
+    return console.code_after(runs.unsaved, _FAILED if runs.failed else 0)
 
 
-def _check_places(out: Path | None, no_save: bool) -> None:
-    """What will not be written is said before anything is simulated."""
-    from gaitsim.results.store import CannotSave
-
-    if out is not None and out.is_dir():
-        raise CannotSave(f"{out}: this is a folder; name a file in it, such as --out {out / 'trajectory.csv'}.")
-    blocked = next((folder for folder in out.parents if folder.is_file()), None) if out is not None else None
-    if blocked is not None:
-        raise CannotSave(f"{out}: {blocked} is a file, so nothing can be written below it; choose another --out.")
-    if not no_save and RESULTS.exists() and not RESULTS.is_dir():
-        rule = "this is a file, and results go into a folder of that name"
-        raise CannotSave(f"{RESULTS}: {rule}; rename the file, or use --no-save.")
-
-
-def _spacing(every: str | None, out: Path | None, models: Sequence[Model]) -> float | None:
-    """Seconds from one instant of --out to the next; None for all. Errors: Usage, before anything is simulated."""
-    from gaitsim.errors import Usage
-    from gaitsim.simulation.outcome import steps_in
-
-    spacing = seconds_of("--every", every)
-    if spacing is not None:
-        if out is None:
-            raise Usage(f"--every {every}: this is of --out; name a file, such as --out run.csv, or leave it out.")
-        steps_in(spacing, models[0].simulate.step)
-    return spacing
-
-
-def _outcomes(
-    models: Sequence[Model], mode: ModeName, starts: Starts, single: bool, recorded: bool, quiet: bool
-) -> Iterator[Outcome]:
-    """The outcomes of the models, in their order, as they end."""
-    from gaitsim.simulation.batch import run_all
-    from gaitsim.simulation.run import Simulator
-
-    if single:
-        simulator = Simulator(models[0], mode.value)
-        starts.look_at(simulator)
-        _say(starts.warnings)
-        with console.waiting("simulating", quiet):
-            outcome = simulator.run(recorded=recorded)
-        yield outcome
-        return
-    hear = console.progress("runs", quiet)
-    for count, outcome in enumerate(run_all(models, mode.value, starts.look_at), start=1):
-        if count == 1:
-            _say(starts.warnings)
-        hear(count, len(models))
-        yield outcome
-
-
-def _say(lines: Iterable[str]) -> None:
-    for line in lines:
-        console.say(line)
-
-
-def _report(
-    rows: Sequence[Variant],
-    outcomes: Sequence[Outcome],
-    models: Sequence[Model],
-    mode: ModeName,
-    folder: Path | None,
-    json: bool,
-    draws: Draws | None,
-) -> None:
+def _report(runs: Runs, json: bool) -> None:
     from gaitsim.cli.draws import drawn_data, give_draws
 
+    outcomes, models, draws, folder = runs.outcomes, runs.models, runs.draws, runs.folder
+    rows = runs.rows[: len(outcomes)]
     single = len(rows) == 1 and not rows[0].settings
     if json:
         units = {name: unit for model in models for name, unit in model.metrics.items()}
-        tail = {"units": units, "mode": mode.value, "result": str(folder) if folder else None}
+        tail = {"units": units, "mode": runs.mode, "result": str(folder) if folder else None}
         tables = [_data(outcome) for outcome in outcomes]
         if draws:
             console.give_json({"status": _overall(outcomes), **drawn_data(draws, models[0], outcomes, tables), **tail})
@@ -203,14 +117,14 @@ def _report(
         console.say(f"saved in {folder}{look}")
 
 
-def _say_endings(rows: Sequence[Variant], outcomes: Sequence[Outcome], draws: Draws | None) -> None:
+def _say_endings(runs: Runs) -> None:
     """Which runs failed, and why; of draws also which ones were stopped."""
-    for number, (row, outcome) in enumerate(zip(rows, outcomes, strict=True), start=1):
+    for number, (row, outcome) in enumerate(zip(runs.rows, runs.outcomes, strict=True), start=1):
         words = [f"{address} = {value}" for address, value in row.settings.items()]
-        which = f"draw {number}: " if draws else f"{', '.join(words)}: " if words else ""
+        which = f"draw {number}: " if runs.draws else f"{', '.join(words)}: " if words else ""
         if outcome.status == "failed":
             console.say(f"{which}failed: {outcome.reason}")
-        elif outcome.status == "stopped" and draws:
+        elif outcome.status == "stopped" and runs.draws:
             console.say(f"{which}stopped by {outcome.reason} at {outcome.simulated_seconds:.4g} s")
 
 

@@ -8,7 +8,8 @@ from typing import Annotated
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, open_library
+from gaitsim.cli.options import Json, Libraries
+from gaitsim.study.opening import open_library
 
 
 def schema(
@@ -24,4 +25,4 @@ def schema(
     """
     from gaitsim.spec.json_schema import spec_schema
 
-    console.give_json(spec_schema(open_library(spec, library)))
+    console.give_json(spec_schema(open_library(spec, library or ())))

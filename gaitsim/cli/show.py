@@ -8,8 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust
-from gaitsim.study.opening import open_source
+from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust, opening
 
 
 def show(
@@ -30,7 +29,7 @@ def show(
     """
     from gaitsim.results.listing import connection_rows, parameter_rows, part_rows
 
-    source = open_source(spec, settings, library, tuned=not start, trusted=trust)
+    source = opening(spec, settings, library, tuned=not start, trusted=trust).source()
     model = source.model()
     data: dict[str, Any] = {}
     if tree or not (parameters or connections or mjcf):

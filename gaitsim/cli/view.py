@@ -8,8 +8,7 @@ from typing import Annotated
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Libraries, Set, Trust
-from gaitsim.study.opening import open_source
+from gaitsim.cli.options import Libraries, Set, Trust, opening
 
 
 def view(
@@ -39,7 +38,7 @@ def view(
     from gaitsim.analysis.replays.replay import replayed
     from gaitsim.animation import viewer
 
-    source = open_source(path, settings, library, tuned=not start, trusted=trust, candidate=candidate)
+    source = opening(path, settings, library, tuned=not start, trusted=trust, candidate=candidate).source()
     model = source.model()
     for notice in (*source.notices, *model.notices):
         console.say(notice)

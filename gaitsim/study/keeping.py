@@ -1,4 +1,4 @@
-"""What a command keeps of its runs; what stands in the way of that is told after the runs themselves."""
+"""What is kept of runs; what stands in the way of that is told after the runs themselves."""
 
 from __future__ import annotations
 
@@ -7,9 +7,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gaitsim.cli import console
-from gaitsim.cli.options import RESULTS
-from gaitsim.errors import ExitCode, GaitsimError
+from gaitsim.errors import GaitsimError
 
 if TYPE_CHECKING:
     from gaitsim.model import Model
@@ -20,11 +18,13 @@ if TYPE_CHECKING:
 
 
 class Keeping:
-    """Keeps runs in a result folder, or nowhere if there is no source."""
+    """Keeps runs in a result folder below `root`, or nowhere if there is none."""
 
-    def __init__(self, source: Source | None, models: Sequence[Model], mode: str, draws: Draws | None = None) -> None:
+    def __init__(
+        self, root: Path | None, source: Source, models: Sequence[Model], mode: str, draws: Draws | None = None
+    ) -> None:
         self.error: GaitsimError | None = None
-        self._source, self._models, self._mode, self._draws = source, models, mode, draws
+        self._root, self._source, self._models, self._mode, self._draws = root, source, models, mode, draws
         self._record: Record | None = None
 
     @property
@@ -34,18 +34,18 @@ class Keeping:
 
     def add(self, settings: Mapping[str, str], outcome: Outcome) -> None:
         """Keep one run, unless one before it could not be kept."""
-        if self._source and not self.error:
+        if self._root and not self.error:
             with self.noting():
-                self._record = self._record or self._begun(self._source)
+                self._record = self._record or self._begun(self._root)
                 self._record.add(settings, outcome)
 
-    def _begun(self, source: Source) -> Record:
+    def _begun(self, root: Path) -> Record:
         from gaitsim.compiler.mjcf import assemble
         from gaitsim.results.record import Record
 
         model = self._models[0]
         xml = assemble(model, model.values()).xml
-        return Record(RESULTS, source.bundle(self._models), model, xml, self._mode, self._draws)
+        return Record(root, self._source.bundle(self._models), model, xml, self._mode, self._draws)
 
     @contextmanager
     def noting(self) -> Iterator[None]:
@@ -60,10 +60,3 @@ class Keeping:
         if self._record:
             with self.noting():
                 self._record.close("interrupted" if self.error else status)
-
-    def code(self, code: int) -> int:
-        """Say what was not kept; the exit code of a command that had this one otherwise."""
-        if self.error is None:
-            return code
-        console.say_error(self.error)
-        return ExitCode(self.error.exit_code)

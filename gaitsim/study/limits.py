@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from gaitsim.errors import Fault, Mark, SimulationFailed, Usage, did_you_mean
 from gaitsim.model import Model
@@ -13,11 +14,16 @@ from gaitsim.simulation.batch import run_all
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode
 from gaitsim.spec.inheritance import override, split_setting
-from gaitsim.spec.study import Span
+from gaitsim.spec.study import Span, span
+from gaitsim.study.keeping import Keeping
+from gaitsim.study.listening import Listener
+from gaitsim.study.opening import Opening, only_row, started_from
 from gaitsim.study.source import Source
 from gaitsim.text.document import Mapping as Document
 from gaitsim.text.quantity import BadQuantity, quantity_of
 from gaitsim.units import parse_unit, with_unit
+
+_FINEST = 1e-6
 
 
 @dataclass(frozen=True)
@@ -68,6 +74,25 @@ def until_of(text: str | None, model: Model) -> Until:
     except BadQuantity as error:
         raise Usage(f"--until {text}: {error}") from error
     return Until(metric, quantity.value / unit.factor, unit.text)
+
+
+@dataclass(frozen=True)
+class Scan:
+    """How a range is looked through.
+
+    points: values of the first scan, both ends among them. tolerance: how exactly, in parts of the range.
+    """
+
+    points: int = 9
+    tolerance: float = 0.01
+
+    def check(self) -> None:
+        """Errors: Usage."""
+        if self.points < 2:
+            raise Usage(f"--points {self.points}: a scan has at least 2 values, the two ends.")
+        if not _FINEST <= self.tolerance <= 1:
+            rule = f"this is a part of the range, from {_FINEST:g} to 1, such as 0.01"
+            raise Usage(f"--tolerance {self.tolerance:g}: {rule}.")
 
 
 @dataclass
@@ -140,6 +165,14 @@ class Hunt:
             self._check_begun()
         hear(most, most)
 
+    def kept(self, root: Path | None) -> Keeping:
+        """The runs in a result folder below `root`, or nowhere if there is none; what stood in the way is in it."""
+        keeping = Keeping(root, self.source, self.models, self.mode)
+        for settings, outcome in self.rows:
+            keeping.add(settings, outcome)
+        keeping.close()
+        return keeping
+
     def _model(self, limit: Limit, share: float) -> Model:
         return self.source.model(override(self.document, limit.address, limit.at(share), "--vary"))
 
@@ -154,3 +187,32 @@ class Hunt:
         if faults:
             raise SimulationFailed(faults)
 
+
+def hunted(
+    opening: Opening,
+    vary: Sequence[str],
+    until: str | None,
+    scan: Scan,
+    origin: str | None,
+    mode: Mode,
+    listener: Listener,
+) -> Hunt:
+    """The limits that are to be found of what is opened; nothing is run yet.
+
+    vary: what goes how far, each as ADDRESS=FROM:TO. until: METRIC=VALUE that ends it, or None for a run that does
+    not complete. origin: as of `started_from`. Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted.
+    """
+    scan.check()
+    limits = [Limit(*span(text), Bracket(scan.points, scan.tolerance)) for text in vary]
+    source = opening.source()
+    if origin is not None:
+        if opening.names_result:
+            rule = f"{opening.path} is a result, which has its own values; name a spec, or drop --from"
+            raise Usage(f"--from {origin}: {rule}.")
+        source, notices = started_from(replace(source, notices=()), opening, origin)
+        source = replace(source, notices=tuple(notices))
+    row = only_row(source, opening.path)
+    model = source.model(row.document)
+    for notice in dict.fromkeys([*source.notices, *model.notices]):
+        listener.say(notice)
+    return Hunt(source, row.document, row.settings, limits, until_of(until, model), mode)

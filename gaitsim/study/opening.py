@@ -1,30 +1,109 @@
-"""What a command is about: a spec with its tuned values, or a result with one of its candidates."""
+"""What is studied, a spec with its tuned values or a result with one of its candidates, and how it is opened."""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from gaitsim.components.find import Library
     from gaitsim.spec.study import Variant
     from gaitsim.study.source import Source
+    from gaitsim.text.document import Mapping
 
 
-def source_of_spec(spec: Path, settings: list[str] | None, folders: list[Path] | None, tuned: bool) -> Source:
-    """A spec, started at its tuned values if there are some and they are wanted.
+@dataclass(frozen=True)
+class Opening:
+    """A spec or a result folder, and everything that says how it is opened.
+
+    path: the spec, or the result folder. settings: overrides of the spec, each as ADDRESS=VALUE.
+    folders: of more components. tuned: start at the tuned values beside the spec, if there are some.
+    trusted: run components of a result that this machine does not know. candidate: of a result, which one:
+    best, a rank or GENERATION:INDEX of a search, best or the number of a run of a study.
+    """
+
+    path: Path
+    settings: tuple[str, ...] = ()
+    folders: tuple[Path, ...] = ()
+    tuned: bool = True
+    trusted: bool = False
+    candidate: str | None = None
+
+    @property
+    def names_result(self) -> bool:
+        """Whether the path is meant as a result."""
+        from gaitsim.results.manifest import is_result
+
+        return is_result(self.path)
+
+    def source(self) -> Source:
+        """What the path names, with its components and starts.
+
+        Raises:
+            InvalidSpec, BadResult, Untrusted, Usage.
+        """
+        from gaitsim.errors import Usage
+        from gaitsim.study.source import source_of_result
+
+        if self.names_result:
+            return source_of_result(self.path, self.settings, self.trusted, self.candidate)
+        if self.candidate is not None:
+            raise Usage(f"--candidate {self.candidate}: {self.path} is a spec; candidates belong to results.")
+        return _tuned(self) if self.tuned else _as_written(self)
+
+    def library(self) -> Library:
+        """The components that the spec can use. Errors: Usage."""
+        return open_library(self.path, self.folders)
+
+    def document(self) -> Mapping:
+        """The spec with its settings. Errors: InvalidSpec, Usage."""
+        from gaitsim.spec.inheritance import split_setting
+        from gaitsim.spec.resolve import read_spec
+        from gaitsim.study.foreign import refuse_foreign
+
+        refuse_foreign(self.path)
+        return read_spec(self.path, [split_setting(text) for text in self.settings])
+
+
+def open_library(spec: Path | None, folders: Sequence[Path]) -> Library:
+    """The components that a spec can use.
+
+    Errors: Usage if a folder is missing, or if the spec is the copy that a result holds.
+    """
+    from gaitsim.components.find import Library, library_folders
+    from gaitsim.errors import Usage
+
+    if spec is not None and spec.name == "spec.yaml" and (spec.parent / "manifest.json").is_file():
+        rule = "this is the spec of a result, and its components are run with that only"
+        raise Usage(f"{spec}: {rule}; name the result, {spec.parent}, or copy the file to a folder of your own.")
+
+    for folder in folders:
+        if not folder.is_dir():
+            raise Usage(f"--library {folder}: there is no such folder; name one that holds kinds.")
+    return Library(library_folders(spec, folders))
+
+
+def _as_written(opening: Opening) -> Source:
+    """A spec that starts where it says."""
+    from gaitsim.study.source import Source
+
+    return Source(opening.document(), opening.library(), opening.path.stem, {})
+
+
+def _tuned(opening: Opening) -> Source:
+    """A spec, started at its tuned values if there are some.
 
     A variant without its own starts at those of the nearest parent that has some, if it tunes the same numbers,
     or fewer, from the same starts within the same bounds.
     """
-    from gaitsim.cli.options import open_library, read_document
     from gaitsim.results.tuned import read_tuned, tuned_path
     from gaitsim.spec.inheritance import parents
-    from gaitsim.study.source import Source
 
-    source = Source(read_document(spec, settings), open_library(spec, folders), spec.stem, {})
-    owner = next((path for path in (spec, *parents(spec)) if tuned_path(path).is_file()), None) if tuned else None
-    if owner is None or not (owner == spec or _tunes_what(source, owner, folders)):
+    source, spec = _as_written(opening), opening.path
+    owner = next((path for path in (spec, *parents(spec)) if tuned_path(path).is_file()), None)
+    if owner is None or not (owner == spec or _tunes_what(source, Opening(owner, folders=opening.folders))):
         return source
     path = tuned_path(owner)
     free = source.model().free
@@ -36,18 +115,18 @@ def source_of_spec(spec: Path, settings: list[str] | None, folders: list[Path] |
     return replace(source, starts=tuned_there.values, origin=str(path), notices=(notice,))
 
 
-def _tunes_what(source: Source, parent: Path, folders: list[Path] | None) -> bool:
+def _tunes_what(source: Source, parent: Opening) -> bool:
     """Whether all that a source tunes is tuned alike in the spec that it extends."""
-    from gaitsim.cli.options import read_model
-
-    alike = {(f.address, f.low, f.high, f.start) for f in read_model(parent, None, folders).free}
+    alike = {(f.address, f.low, f.high, f.start) for f in _as_written(parent).model().free}
     return alike >= {(f.address, f.low, f.high, f.start) for f in source.model().free}
 
 
-def started_from(source: Source, spec: Path, origin: str | None, trusted: bool) -> tuple[Source, list[str]]:
-    """The source of a spec started where `--from` says, and what matched. Errors: Usage, BadResult, Untrusted."""
+def started_from(source: Source, opening: Opening, origin: str | None) -> tuple[Source, list[str]]:
+    """The source of a spec with starts from where `--from` says, and what matched.
+
+    origin: tuned, middle, or a result folder; None changes nothing. Errors: Usage, BadResult, Untrusted.
+    """
     from gaitsim.errors import Usage
-    from gaitsim.results.manifest import is_result
     from gaitsim.results.tuned import read_tuned, tuned_path
 
     if origin is None:
@@ -56,15 +135,15 @@ def started_from(source: Source, spec: Path, origin: str | None, trusted: bool) 
     if origin == "middle":
         where, values = "the middle of all bounds", {f.address: 0.5 * (f.low + f.high) for f in free}
     elif origin == "tuned":
-        path = tuned_path(spec)
+        path = tuned_path(opening.path)
         if not path.is_file():
             raise Usage(f"--from tuned: there is no {path}; make it with optimize --adopt.")
         where, values = str(path), read_tuned(path, free).values
     else:
-        where = origin
-        if not is_result(Path(where)):
+        where, result = origin, Opening(Path(origin), trusted=opening.trusted)
+        if not result.names_result:
             raise Usage(f"--from {where}: this is no result; write tuned, middle, or a folder of gaitsim results list.")
-        values = dict(open_source(Path(where), None, None, trusted=trusted).starts)
+        values = dict(result.source().starts)
     addresses = [f.address for f in free]
     matched = [a for a in addresses if a in values]
     if not matched:
@@ -84,26 +163,3 @@ def only_row(source: Source, path: Path) -> Variant:
     if len(rows) > 1:
         raise Usage(f"{path} is a study of {len(rows)} runs; take one with --candidate, or drop it: --set study=null.")
     return rows[0]
-
-
-def open_source(
-    path: Path,
-    settings: list[str] | None,
-    folders: list[Path] | None,
-    tuned: bool = True,
-    trusted: bool = False,
-    candidate: str | None = None,
-) -> Source:
-    """The source that a path names: a spec, or a result folder.
-
-    Errors: InvalidSpec, BadResult, Untrusted, Usage.
-    """
-    from gaitsim.errors import Usage
-    from gaitsim.results.manifest import is_result
-    from gaitsim.study.source import source_of_result
-
-    if is_result(path):
-        return source_of_result(path, settings or [], trusted, candidate)
-    if candidate is not None:
-        raise Usage(f"--candidate {candidate}: {path} is a spec; candidates belong to results.")
-    return source_of_spec(path, settings, folders, tuned)

@@ -9,10 +9,10 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
-from gaitsim.cli import console
 from gaitsim.errors import ExitCode, GaitsimError
 from gaitsim.exchange.formats import FORMATS, Export
 from gaitsim.results.store import CannotSave
+from gaitsim.study.listening import Listener, Silence
 
 if TYPE_CHECKING:
     from gaitsim.analysis.drawings.drawing import Drawing, Figures
@@ -27,7 +27,7 @@ class Products:
     """Files that were made in a folder, and what could not be made.
 
     faults: what the user must mend. lacks: what the model or this machine has not, which is no failure.
-    quiet: no lines of progress where stderr is no terminal.
+    listener: hears what could not be made, and how far it is.
     """
 
     folder: Path
@@ -38,7 +38,7 @@ class Products:
     report: Path | None = None
     faults: list[GaitsimError] = field(default_factory=list)
     lacks: list[str] = field(default_factory=list)
-    quiet: bool = False
+    listener: Listener = field(default_factory=Silence)
 
     @property
     def exit_code(self) -> int:
@@ -47,19 +47,19 @@ class Products:
 
     def refuse(self, error: GaitsimError) -> None:
         """Say what could not be made, and go on."""
-        console.say_error(error)
+        self.listener.say_error(error)
         self.faults.append(error)
 
     def remark(self, words: Sequence[str]) -> None:
         """Say what is not there and is no failure."""
         for word in words:
-            console.say(word)
+            self.listener.say(word)
             self.lacks.append(word)
 
     def refuse_if_others(self, error: GaitsimError, count: int) -> None:
         """Note that one of several runs cannot be looked at; of the only one, the error itself tells."""
         if count > 1:
-            console.say_error(error)
+            self.listener.say_error(error)
         self.faults.append(error)
 
     def attempt(self, what: str, make: Callable[[], T]) -> T | None:
@@ -79,7 +79,7 @@ class Products:
         from gaitsim.analysis.drawings.drawing import save
 
         taken: set[str] = set()
-        hear = console.progress("figures", self.quiet)
+        hear = self.listener.progress("figures")
         for k, maker in enumerate(makers, start=1):
             for drawing in self.attempt("a figure", maker) or []:
                 named = _renamed(drawing, taken)
@@ -103,7 +103,7 @@ class Products:
 
         def make() -> Path | None:
             try:
-                return record(replay, self.folder / f"video.{ending}", options, console.progress("video", self.quiet))
+                return record(replay, self.folder / f"video.{ending}", options, self.listener.progress("video"))
             except NoOpenGL as error:
                 self.remark([str(error)])
                 return None

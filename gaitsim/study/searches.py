@@ -16,7 +16,6 @@ from gaitsim.results.bundle import SPEC, START, Bundle
 from gaitsim.results.manifest import (
     BadResult,
     changed_versions,
-    is_result,
     new_manifest,
     read_result,
     recorded_manifest,
@@ -26,7 +25,7 @@ from gaitsim.results.trust import check_trust
 from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.schema import SearchSection, optimize_section
-from gaitsim.study.opening import source_of_spec, started_from
+from gaitsim.study.opening import Opening, started_from
 from gaitsim.study.source import Source
 from gaitsim.study.starts import Starts
 from gaitsim.study.tuning import Tuning
@@ -38,42 +37,43 @@ _LEAST = {"population": 2, "generations": 1, "seed": 0}
 
 @dataclass(frozen=True)
 class Request:
-    """What the command line asks for; None where it says nothing."""
+    """What is asked of a search; None where nothing is said, and the spec decides.
 
-    spec: Path
-    algorithm: str | None
-    population: int | None
-    generations: int | None
-    seed: int | None
-    mode: str | None
-    smoke: bool
-    origin: str | None
-    settings: list[str] | None
-    library: list[Path] | None
-    trust: bool
+    opening: untuned, as a search starts at the numbers that the spec has. origin: as of `started_from`.
+    """
+
+    opening: Opening
+    algorithm: str | None = None
+    population: int | None = None
+    generations: int | None = None
+    seed: int | None = None
+    mode: str | None = None
+    smoke: bool = False
+    origin: str | None = None
 
     @property
     def words(self) -> list[str]:
         """What --resume must be told again: settings and libraries."""
-        settings = [word for text in self.settings or [] for word in ("--set", text)]
-        return [*settings, *(word for folder in self.library or [] for word in ("--library", str(folder)))]
+        settings = [word for text in self.opening.settings for word in ("--set", text)]
+        return [*settings, *(word for folder in self.opening.folders for word in ("--library", str(folder)))]
 
 
 def begun(request: Request, root: Path) -> Tuning:
     """A new search in a new result folder."""
-    if is_result(request.spec):
-        move = f"{command('optimize', request.spec, '--resume')}, or SPEC --from {quote(str(request.spec))}"
-        raise Usage(f"{request.spec} is a result; to continue or to start from it: {move}")
-    source = source_of_spec(request.spec, request.settings, request.library, tuned=False)
-    source, notices = started_from(source, request.spec, request.origin, request.trust)
+    path = request.opening.path
+    if request.opening.names_result:
+        move = f"{command('optimize', path, '--resume')}, or SPEC --from {quote(str(path))}"
+        raise Usage(f"{path} is a result; to continue or to start from it: {move}")
+    source = request.opening.source()
+    source, notices = started_from(source, request.opening, request.origin)
     model = source.model()
     if not model.free:
         rule = "nothing is tuned in this spec"
         move = "give a value bounds, such as gain: {value: 1, tune: [0, 5]}"
-        raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.spec))))
+        raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.opening.path))))
     if model.objective is None:
         move = "add one, such as objective: {use: objective/maximize, value: {from: a metric}}"
-        raise InvalidSpec(Fault(f"this spec has no objective; {move}.", Mark(str(request.spec))))
+        raise InvalidSpec(Fault(f"this spec has no objective; {move}.", Mark(str(request.opening.path))))
     search = _search_of(source, request)
     problem = problem_of(model, search["spread_factor"])
     algorithm = ALGORITHMS[search["algorithm"]].make(problem, search["seed"], search["population"])
@@ -83,7 +83,7 @@ def begun(request: Request, root: Path) -> Tuning:
     simulator, starts = Simulator(model, mode), Starts(source)
     starts.look_at(simulator)
     bundle = source.bundle([model, *each])
-    told = {"spec": str(request.spec), "search": search, "smoke": request.smoke, "notices": notices}
+    told = {"spec": str(request.opening.path), "search": search, "smoke": request.smoke, "notices": notices}
     manifest = new_manifest("optimize", bundle, mode, **told)
     folder = create_result(root, bundle, model, simulator.xml, manifest, {"evaluations.jsonl": ""}, _MOVE)
     bundle = replace(bundle, folder=folder)
@@ -96,7 +96,7 @@ def resumed(request: Request, root: Path) -> Tuning:
     Errors: BadResult, DamagedJournal, Usage, InvalidSpec if the spec has changed.
     """
     _check_beside_resume(request)
-    folder = request.spec if is_result(request.spec) else _newest(request.spec, root)
+    folder = request.opening.path if request.opening.names_result else _newest(request.opening.path, root)
     manifest, bundle = read_result(folder)
     if manifest["kind"] != "optimize":
         raise BadResult(f"{folder}: this is the result of a run; only a search can be resumed.")
@@ -105,9 +105,9 @@ def resumed(request: Request, root: Path) -> Tuning:
     if changed:
         rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
         raise BadResult(f"{folder}: {rule}; install those, or start a new search with --from {folder}.")
-    check_trust(bundle, request.trust)
+    check_trust(bundle, request.opening.trusted)
     _check_links(folder)
-    if not is_result(request.spec):
+    if not request.opening.names_result:
         _check_same_spec(request, folder, bundle)
     _check_same_search(request, search, str(manifest["mode"]))
     done = max((e.candidate.generation for e in read(folder)), default=0)
@@ -131,9 +131,9 @@ def _check_beside_resume(request: Request) -> None:
     if request.origin is not None or request.smoke:
         option = "--smoke" if request.smoke else "--from"
         raise Usage(f"{option} begins a new search, and --resume continues an old one; leave one out.")
-    if is_result(request.spec) and (request.settings or request.library):
-        option = "--set" if request.settings else "--library"
-        raise Usage(f"{option}: {request.spec} goes on with its own spec and components; leave it out.")
+    if request.opening.names_result and (request.opening.settings or request.opening.folders):
+        option = "--set" if request.opening.settings else "--library"
+        raise Usage(f"{option}: {request.opening.path} goes on with its own spec and components; leave it out.")
     _check_least({"generations": request.generations})
 
 
@@ -204,7 +204,7 @@ def _newest(spec: Path, root: Path) -> Path:
 
 def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
     """A search goes on only with the spec it began with."""
-    source = source_of_spec(request.spec, request.settings, request.library, tuned=False)
+    source = request.opening.source()
     models = [source.model(), *episode_models(source.document, source.library, source.name)]
     now = source.bundle(models).files
     before = {path: text for path, text in bundle.files.items() if path != START}
@@ -214,4 +214,4 @@ def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
         rule = f"what {folder} was begun with has changed since: {', '.join(words)}"
         old = command("optimize", folder, "--resume")
         move = f"continue the old one: {old}; or start a new search with --from {quote(str(folder))}"
-        raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.spec))))
+        raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.opening.path))))

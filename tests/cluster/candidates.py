@@ -12,7 +12,7 @@ from gaitsim.cluster.evaluate import Serial, bench_of
 from gaitsim.optimization.evaluation import Candidate, Evaluation
 from gaitsim.optimization.search import Evaluator
 from gaitsim.results.bundle import Bundle
-from gaitsim.study.opening import source_of_spec
+from gaitsim.study.opening import Opening
 
 LEVELS = (0.1, 0.3, 0.9, 0.2, 0.5, 0.65, 0.4, 0.0)
 CANDIDATES = [Candidate(1, i, (60.0, 12.0, level)) for i, level in enumerate(LEVELS)]
@@ -23,7 +23,7 @@ INNOCENT = [c for c in CANDIDATES if c != CULPRIT]
 def bundle(folder: Path, trap: str, duration: str = "200ms") -> Bundle:
     """A model whose trap acts above a level of 0.7."""
     settings = [f"parts.trap.use=trap/{trap}", f"simulate.duration={duration}"]
-    source = source_of_spec(Study(folder).folder / "spec.yaml", settings, None, tuned=False)
+    source = Opening(Study(folder).folder / "spec.yaml", tuple(settings), tuned=False).source()
     return source.bundle([source.model()])
 
 

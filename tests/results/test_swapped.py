@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.study.opening import source_of_spec
+from gaitsim.study.opening import Opening
 from gaitsim.results.bundle import read_bundle
 from gaitsim.simulation.run import Simulator
 
@@ -21,7 +21,7 @@ PATH = (
     "swap", ["ground.use=contact/mujoco", f"extensor.path={PATH}", "use_for.muscle=muscle/geyer2003"]
 )
 def test_a_swapped_model_is_the_same_from_its_bundle(swap: str, tmp_path: Path) -> None:
-    source = source_of_spec(SPEC, [swap, "simulate.duration=1 s"], None, tuned=False)
+    source = Opening(SPEC, (swap, "simulate.duration=1 s",), tuned=False).source()
     model = source.model()
     source.bundle([model]).write(tmp_path)
     again = read_bundle(tmp_path, source.name).model()

@@ -10,7 +10,7 @@ import pytest
 from gaitsim.components.find import Library, shipped_folder
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
-from gaitsim.study.opening import source_of_spec
+from gaitsim.study.opening import Opening
 
 from .models import ROOT
 
@@ -20,7 +20,7 @@ PERIOD, STEP = 1.1, 0.5e-3  # s
 
 @pytest.fixture(scope="module")
 def outcome() -> Outcome:
-    found = Simulator(source_of_spec(STUDY, [], None, tuned=True).model()).run(recorded=True)
+    found = Simulator(Opening(STUDY).source().model()).run(recorded=True)
     assert found.status == "completed"
     return found
 
@@ -35,7 +35,7 @@ def test_springs_alone_give_the_moment_of_the_knee(outcome: Outcome) -> None:
 
 def test_a_clutch_does_what_plain_arrays_do(outcome: Outcome) -> None:
     """The vastus, from the table of knee angles: engaged once, held, let go where its path is as long again."""
-    model = source_of_spec(STUDY, [], None, tuned=True).model()
+    model = Opening(STUDY).source().model()
     values = model.values()
     number = {p.address: p.numbers for p in model.parts}
     stiffness = values[number["vastus"]["stiffness"]]

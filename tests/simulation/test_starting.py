@@ -10,7 +10,7 @@ from gaitsim.cli.main import main
 from gaitsim.simulation.run import Simulator
 from gaitsim.simulation.starting import Doubts, start_doubts
 from gaitsim.spec.study import variants
-from gaitsim.study.opening import source_of_spec
+from gaitsim.study.opening import Opening
 from simulation.models import ROOT, SPECS, model, written
 
 MOVE = "change initial:, or the numbers of this part."
@@ -22,7 +22,7 @@ def doubts(spec: str, *settings: tuple[str, str]) -> Doubts:
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda path: path.stem)
 def test_no_shipped_spec_starts_unusually(spec: Path) -> None:
-    source = source_of_spec(spec, None, None, tuned=True)
+    source = Opening(spec).source()
     simulator = Simulator(source.model(variants(source.document, [])[0].document))
     assert start_doubts(simulator) == Doubts()
 

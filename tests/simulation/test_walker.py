@@ -12,7 +12,7 @@ from gaitsim.optimization.draws import Draws
 from gaitsim.results.tuned import problem_of, read_tuned, tuned_path
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
-from gaitsim.study.opening import source_of_spec
+from gaitsim.study.opening import Opening
 
 from .models import ROOT
 
@@ -21,7 +21,7 @@ WALKER = ROOT / "specs" / "walking_geyer2010.yaml"
 
 @cache
 def run(spec: Path, *settings: str, tuned: bool = True) -> Outcome:
-    return Simulator(source_of_spec(spec, list(settings), None, tuned=tuned).model()).run()
+    return Simulator(Opening(spec, tuple(settings), tuned=tuned).source().model()).run()
 
 
 @pytest.mark.parametrize("settings", [(), ("simulate.step=0.4 ms",)], ids=["its step", "half of it"])
@@ -61,7 +61,7 @@ def test_its_step_is_right_within_one_percent() -> None:
 
 @pytest.mark.slow
 def test_it_walks_with_every_tuned_number_changed_by_up_to_one_percent() -> None:
-    model = source_of_spec(WALKER, [], None, tuned=True).model()
+    model = Opening(WALKER).source().model()
     draws = Draws(10, 0.01, seed=1).values(problem_of(model))
     found = [Simulator(model.started_at(values)).run().status for values in draws]
     assert found.count("completed") >= 9

@@ -1,0 +1,199 @@
+"""Runs of what was opened: one, one for each row of a study, or one for each draw around its tuned values."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from gaitsim.errors import GaitsimError, Usage
+from gaitsim.spec.study import variants
+from gaitsim.study.draws import drawn_models
+from gaitsim.study.keeping import Keeping
+from gaitsim.study.starts import Starts
+from gaitsim.study.times import seconds_of
+
+if TYPE_CHECKING:
+    import pandas
+
+    from gaitsim.model import Model
+    from gaitsim.optimization.draws import Draws
+    from gaitsim.simulation.outcome import Outcome
+    from gaitsim.simulation.run import Mode
+    from gaitsim.spec.study import Variant
+    from gaitsim.study.listening import Listener
+    from gaitsim.study.opening import Opening
+
+
+@dataclass(frozen=True)
+class Places:
+    """Where runs go.
+
+    results: the folder of result folders; None keeps none. out: a CSV file for all signals of a single run.
+    every: of `out`, one instant in such a time as '10 ms'; None for all.
+    """
+
+    results: Path | None
+    out: Path | None = None
+    every: str | None = None
+
+    def check(self) -> None:
+        """What will not be written is said before anything is simulated. Errors: CannotSave."""
+        from gaitsim.results.store import CannotSave
+
+        out, results = self.out, self.results
+        if out is not None and out.is_dir():
+            raise CannotSave(f"{out}: this is a folder; name a file in it, such as --out {out / 'trajectory.csv'}.")
+        blocked = next((folder for folder in out.parents if folder.is_file()), None) if out is not None else None
+        if blocked is not None:
+            raise CannotSave(f"{out}: {blocked} is a file, so nothing can be written below it; choose another --out.")
+        if results is not None and results.exists() and not results.is_dir():
+            rule = "this is a file, and results go into a folder of that name"
+            raise CannotSave(f"{results}: {rule}; rename the file, or use --no-save.")
+
+    def spacing(self, models: Sequence[Model]) -> float | None:
+        """Seconds from one instant of `out` to the next; None for all. Errors: Usage."""
+        from gaitsim.simulation.outcome import steps_in
+
+        spacing = seconds_of("--every", self.every)
+        if spacing is not None:
+            if self.out is None:
+                rule = "this is of --out; name a file, such as --out run.csv, or leave it out"
+                raise Usage(f"--every {self.every}: {rule}.")
+            steps_in(spacing, models[0].simulate.step)
+        return spacing
+
+
+@dataclass
+class Runs:
+    """Runs, and their outcomes as far as they were made.
+
+    rows: what each run sets. models: of the rows; of draws, the one that they are around. simulated: the model of
+    each run. notices: what a reader should know. outcomes: in the order of the rows.
+    """
+
+    rows: Sequence[Variant]
+    models: Sequence[Model]
+    simulated: Sequence[Model]
+    mode: Mode
+    draws: Draws | None
+    out: Path | None
+    spacing: float | None
+    starts: Starts
+    keeping: Keeping
+    notices: list[str]
+    outcomes: list[Outcome] = field(default_factory=list)
+
+    @property
+    def single(self) -> bool:
+        """Whether this is one run of a spec as it is."""
+        return len(self.rows) == 1 and not self.rows[0].settings
+
+    @property
+    def folder(self) -> Path | None:
+        """The result folder; None if the runs were not kept."""
+        return self.keeping.folder
+
+    @property
+    def unsaved(self) -> GaitsimError | None:
+        """Why the runs, or the signals, could not be kept; None if nothing stood in the way."""
+        return self.keeping.error
+
+    @property
+    def failed(self) -> bool:
+        """Whether every run failed."""
+        return all(outcome.status == "failed" for outcome in self.outcomes)
+
+    @property
+    def warnings(self) -> list[str]:
+        """What is unusual in how the runs start."""
+        return self.starts.warnings
+
+    def table(self) -> pandas.DataFrame:
+        """A row for each run, from 1: what it sets, status, reason, score (a cost), and its metrics in their units."""
+        import pandas
+
+        rows = [
+            {**row.settings, "status": o.status, "reason": o.reason, "score": o.score, **o.metrics}
+            for row, o in zip(self.rows, self.outcomes, strict=False)
+        ]
+        return pandas.DataFrame(rows, index=pandas.RangeIndex(1, len(rows) + 1, name="run"))
+
+    def run(self, listener: Listener) -> None:
+        """Simulate, and keep each run as it ends.
+
+        What cannot be kept is `unsaved`. Errors: InvalidSpec, InvalidComponent; KeyboardInterrupt, with the runs
+        before it kept.
+        """
+        try:
+            for row, outcome in zip(self.rows, self._outcomes(listener), strict=True):
+                self.outcomes.append(outcome)
+                self.keeping.add(row.settings, outcome)
+            self.keeping.close()
+        except KeyboardInterrupt:
+            self.keeping.close("interrupted")
+            raise
+        self._save_signals()
+
+    def _outcomes(self, listener: Listener) -> Iterator[Outcome]:
+        """The outcomes of the models, in their order, as they end."""
+        from gaitsim.simulation.batch import run_all
+        from gaitsim.simulation.run import Simulator
+
+        if self.single:
+            simulator = Simulator(self.simulated[0], self.mode)
+            self.starts.look_at(simulator)
+            self._warn(listener)
+            with listener.waiting("simulating"):
+                outcome = simulator.run(recorded=self.out is not None)
+            yield outcome
+            return
+        hear = listener.progress("runs")
+        for count, outcome in enumerate(run_all(self.simulated, self.mode, self.starts.look_at), start=1):
+            if count == 1:
+                self._warn(listener)
+            hear(count, len(self.simulated))
+            yield outcome
+
+    def _warn(self, listener: Listener) -> None:
+        for warning in self.warnings:
+            listener.say(warning)
+
+    def _save_signals(self) -> None:
+        if self.out is None or self.outcomes[0].trajectory is None:
+            return
+        from gaitsim.results.store import save_trajectory
+
+        with self.keeping.noting():
+            (outcome,) = self.outcomes
+            save_trajectory(self.out, outcome if self.spacing is None else outcome.every(self.spacing))
+
+
+def prepared(
+    opening: Opening, vary: Sequence[str], draws: Draws | None, mode: Mode, places: Places, listener: Listener
+) -> Runs:
+    """The runs of what is opened, resolved and not begun.
+
+    vary: values to run, each as ADDRESS=VALUES.
+    Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted, CannotSave.
+    """
+    source = opening.source()
+    rows = variants(source.document, vary)
+    if places.out is not None and len(rows) > 1:
+        raise Usage("--out writes one trajectory; drop --vary or study:, or --set one value.")
+    places.check()
+    models = [source.model(row.document) for row in rows]
+    spacing = places.spacing(models)
+    notices = list(dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]))
+    for notice in notices:
+        listener.say(notice)
+    simulated = models
+    if draws:
+        simulated, unmoved = drawn_models(models, draws, opening.path)
+        rows = rows * draws.count
+        notices += unmoved
+        for notice in unmoved:
+            listener.say(notice)
+    keeping = Keeping(places.results, source, models, mode, draws)
+    return Runs(rows, models, simulated, mode, draws, places.out, spacing, Starts(source), keeping, notices)
