@@ -42,7 +42,7 @@ def test_it_walks_out_of_the_box_at_its_step_and_at_half_of_it(settings: tuple[s
 
 
 def test_the_result_that_produced_its_values_is_in_the_repository() -> None:
-    model = source_of_spec(WALKER, ["simulate.step=0.5 ms"], None, tuned=True).model()  # the step of that search
+    model = Opening(WALKER, ("simulate.step=0.5 ms",)).source().model()  # the step of that search
     tuned = read_tuned(tuned_path(WALKER), model.free)
     rows = [json.loads(line) for line in (ROOT / tuned.result / "evaluations.jsonl").read_text().splitlines()]
     best = min(rows, key=lambda row: row["score"])
