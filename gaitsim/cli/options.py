@@ -10,6 +10,7 @@ import typer
 
 from gaitsim.study.opening import Opening, open_library
 
+
 def complete_references(incomplete: str) -> list[str]:
     """Components, for the shell's completion."""
     return [reference for reference in open_library(None, ()).references() if reference.startswith(incomplete)]
