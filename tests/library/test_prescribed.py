@@ -97,9 +97,13 @@ def test_co_contraction() -> None:
     assert metrics("measure/co_contraction", signals, 1.0, unit=2.0)["value"] == pytest.approx((4 + 1) / 4)
 
 
-def test_work_is_given_while_a_path_shortens() -> None:
-    signals = {"force": [0.0, 100.0, 100.0, 100.0, 0.0], "length": [0.5, 0.5, 0.46, 0.44, 0.5]}
+def test_work_of_whole_strides() -> None:
+    signals = {
+        "force": [0.0, 100.0, 100.0, 100.0, 0.0, 900.0, 900.0],
+        "length": [0.5, 0.5, 0.46, 0.44, 0.5, 0.4, 0.3],
+        "stance": [0.0, 1.0, 1.0, 0.0, 1.0, 1.0, 0.0],
+    }
     found = metrics("measure/work", signals, 0.1, settle=0.0)
-    # 4 J and 2 J given, 3 J taken, in the four steps after the first instant.
-    assert (found["given"], found["taken"]) == (pytest.approx(6 / 0.4), pytest.approx(3 / 0.4))
-    assert found["value"] == pytest.approx(3 / 0.4)
+    # From the second to the fifth instant: 4 J and 2 J given, 3 J taken.
+    assert (found["given"], found["taken"], found["value"]) == pytest.approx((6, 3, 3))
+    assert math.isnan(metrics("measure/work", signals, 0.1, settle=0.2)["value"])

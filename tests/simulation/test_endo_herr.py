@@ -1,0 +1,36 @@
+"""The quasi-passive walker of the Endo-Herr type as it is shipped, at its tuned values."""
+
+from __future__ import annotations
+
+import pytest
+
+from gaitsim.simulation.run import Simulator
+from gaitsim.study.opening import source_of_spec
+
+from .models import ROOT
+
+WALKER = ROOT / "specs" / "walking_endo_herr.yaml"
+CLUTCHES = ("vastus", "gastrocnemius", "hamstrings", "rectus_femoris", "biceps_femoris")
+
+
+@pytest.mark.parametrize("step", ["0.5 ms", "0.25 ms"])
+def test_it_walks_at_its_step_and_at_half_of_it(step: str) -> None:
+    model = source_of_spec(WALKER, ["simulate.step=" + step], None, tuned=True).model()
+    found = Simulator(model).run()
+    assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
+    walk = found.metrics
+    assert walk["fall_time"] == pytest.approx(20) and walk["fall_time.fell"] == 0
+    assert 1.2 < walk["speed"] < 1.4
+    assert 0.58 < walk["stance_fraction"] < 0.66
+    assert walk["correlation_hip"] > 0.95
+    # People's gait is met no better than this yet: 0.9 and 0.8 are wanted, and a stop that is hardly touched.
+    assert walk["correlation_knee"] > 0.8 and walk["correlation_ankle"] > 0.65
+    assert walk["knee_stop_l.peak"] < 150
+    assert 2.5 < walk["cost_of_transport"] < 4
+    for side in "lr":
+        assert walk[f"force_peaks_{side}.two_peaks"] == 1 and walk[f"force_peaks_{side}"] < 1.4
+        clutches = [walk[f"work_{unit}_{side}"] for unit in CLUTCHES]
+        # The hamstrings are stretched at touchdown: what they hold then differs a little from stride to stride.
+        assert max(clutches) < 0.15 and sum(clutches) < -5
+        assert walk[f"work_tibialis_anterior_{side}"] < 0
+        assert walk[f"work_soleus_{side}"] > 0 and walk[f"work_gluteus_{side}"] > 0
