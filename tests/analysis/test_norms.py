@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from parts.calls import metrics
+from components.calls import metrics
 
 from gaitsim.analysis.gait.norms import (
     Norm,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from parts.calls import Tables, primitive
+from components.calls import Tables, primitive
 
 from gaitsim.simulation.run import Mode
 

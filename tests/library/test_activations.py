@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from parts.calls import Tables, primitive
+from components.calls import Tables, primitive
 
 modes = pytest.mark.parametrize("mode", ["rapid", "normal"])
 THELEN = {"activation_time": 0.015, "deactivation_time": 0.050}

@@ -6,7 +6,7 @@ import math
 from pathlib import Path
 
 import pytest
-from parts.calls import computed
+from components.calls import computed
 
 from gaitsim.simulation.run import Mode, Simulator
 

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from parts.calls import computed, primitive
+from components.calls import computed, primitive
 
 from gaitsim.simulation.run import Mode
 from gaitsim.simulation.trial import Trial

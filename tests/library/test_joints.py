@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from parts.calls import computed, primitive
+from components.calls import computed, primitive
 
 from gaitsim.errors import GaitsimError
 from gaitsim.simulation.run import Mode, Simulator

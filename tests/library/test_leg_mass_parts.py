@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from parts.calls import Tables, computed, metrics, primitive
+from components.calls import Tables, computed, metrics, primitive
 
 from gaitsim.components.find import Library, library_folders
 from gaitsim.errors import GaitsimError

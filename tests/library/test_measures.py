@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from parts.calls import FILES, Tables, metrics, primitive
+from components.calls import FILES, Tables, metrics, primitive
 
 NAN = pytest.approx(math.nan, nan_ok=True)
 

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from parts.calls import Tables, metrics, primitive
+from components.calls import Tables, metrics, primitive
 
 NAN = pytest.approx(math.nan, nan_ok=True)
 DT = 0.01

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from parts.calls import Tables, computed, primitive
+from components.calls import Tables, computed, primitive
 
 MUSCLE = "muscle/millard2012"
 SIZES = {"max_isometric_force": 4000.0, "optimal_fiber_length": 0.04, "tendon_slack_length": 0.26}

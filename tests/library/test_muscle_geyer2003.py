@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from parts.calls import Tables, computed, primitive
+from components.calls import Tables, computed, primitive
 
 from gaitsim.simulation.view import View
 

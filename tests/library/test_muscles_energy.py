@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from parts.calls import primitive
+from components.calls import primitive
 
 from .muscle_rig import SIZES, trial
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from parts.calls import primitive
+from components.calls import primitive
 
 from .muscle_rig import MUSCLES, SIZES, TRIALS, largest_error
 

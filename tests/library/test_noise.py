@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from parts.calls import Tables, computed, primitive
+from components.calls import Tables, computed, primitive
 
 from gaitsim.components.find import Library, shipped_folder
 from gaitsim.components.load import function_of

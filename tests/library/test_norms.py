@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from parts.calls import FOLDER, Tables, metrics, primitive
+from components.calls import FOLDER, Tables, metrics, primitive
 
 from gaitsim.components.bibliography import read_bibliography
 from gaitsim.components.find import Library, shipped_folder

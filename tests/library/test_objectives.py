@@ -9,7 +9,7 @@ from typing import Any
 import jsonschema
 import numpy as np
 import pytest
-from parts.calls import FILES, computed
+from components.calls import FILES, computed
 
 from gaitsim.components.find import Library, shipped_folder
 from gaitsim.simulation.run import Simulator

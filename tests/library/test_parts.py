@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from parts.calls import Tables, computed, primitive
+from components.calls import Tables, computed, primitive
 
 modes = pytest.mark.parametrize("mode", ["rapid", "normal"])
 

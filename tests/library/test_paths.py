@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from parts.calls import computed
+from components.calls import computed
 
 from gaitsim.components.find import Library, library_folders
 from gaitsim.errors import InvalidSpec

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from parts.calls import FOLDER, computed, metrics
+from components.calls import FOLDER, computed, metrics
 from simulation.models import written
 
 from gaitsim.components.find import Library

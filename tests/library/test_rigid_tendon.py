@@ -6,7 +6,7 @@ import math
 from typing import Any
 
 import pytest
-from parts.calls import computed
+from components.calls import computed
 
 from .test_degroote2016 import ACTIVE, PASSIVE, VELOCITY
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from parts.calls import computed
+from components.calls import computed
 
 from gaitsim.components.find import Library, shipped_folder
 from gaitsim.simulation.outcome import Trajectory

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 import pytest
-from parts.calls import FOLDER, computed
+from components.calls import FOLDER, computed
 from simulation.models import ROOT
 
 from gaitsim.components.find import Library
