@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from gaitsim.simulation.run import Simulator
-from gaitsim.study.opening import source_of_spec
+from gaitsim.study.opening import Opening
 
 from .models import ROOT
 
@@ -15,7 +15,7 @@ CLUTCHES = ("vastus", "gastrocnemius", "hamstrings", "rectus_femoris", "biceps_f
 
 @pytest.mark.parametrize("step", ["0.5 ms", "0.25 ms"])
 def test_it_walks_at_its_step_and_at_half_of_it(step: str) -> None:
-    model = source_of_spec(WALKER, ["simulate.step=" + step], None, tuned=True).model()
+    model = Opening(WALKER, ("simulate.step=" + step,)).source().model()
     found = Simulator(model).run()
     assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
     walk = found.metrics
