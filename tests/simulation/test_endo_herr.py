@@ -34,3 +34,11 @@ def test_it_walks_at_its_step_and_at_half_of_it(step: str) -> None:
         assert max(clutches) < 0.15 and sum(clutches) < -5
         assert walk[f"work_tibialis_anterior_{side}"] < 0
         assert walk[f"work_soleus_{side}"] > 0 and walk[f"work_gluteus_{side}"] > 0
+
+
+@pytest.mark.parametrize(("variant", "cost"), [("biceps_femoris", 2.89), ("rectus_femoris", 3.14)])
+def test_a_muscle_instead_of_one_clutch_costs_more(variant: str, cost: float) -> None:
+    """The walker itself walks for 2.80 J/(kg m)."""
+    found = Simulator(Opening(ROOT / "specs" / f"walking_endo_herr_{variant}.yaml").source().model()).run()
+    assert found.metrics["fall_time"] == pytest.approx(20)
+    assert found.metrics["cost_of_transport"] == pytest.approx(cost, abs=0.05)
