@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import mujoco
 
-from gaitsim.compiler.mechanics import Mechanics, numbers_of
+from gaitsim.compiler.mechanics.making import Made
+from gaitsim.compiler.mechanics.verbs import Mechanics, numbers_of
 from gaitsim.compiler.places import DrawnForce, DrawnLine, Point, Touching, world_frames
 from gaitsim.compiler.ties import Tie
 from gaitsim.component import Refused
@@ -70,16 +71,10 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
     spec.option.disableflags |= mujoco.mjtDisableBit.mjDSBL_AUTORESET
     index = {part.address: i for i, part in enumerate(model.parts)}
     frames = world_frames(spec)
-    reads: list[tuple[int, Tie]] = []
-    applies: list[tuple[int, Tie]] = []
-    constants: list[Callable[[Any], float]] = []
-    drawings: list[tuple[int, DrawnLine | DrawnForce]] = []
-    touching: list[Touching] = []
-    lifts: list[str] = []
-    begins: list[tuple[str, float, float]] = []
+    made = Made()
 
     def build(part: Part, body: Any = None) -> None:
-        mechanics = Mechanics(spec, part, frames, dressed, body)
+        mechanics = Mechanics(spec, part, frames, made, index[part.address], dressed, body)
         p = numbers_of(part, values, frames)
         try:
             function_of(part.type.cls, "build")(p, mechanics)
@@ -87,13 +82,6 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
             raise InvalidSpec(Fault(f"{error}.", part.mark, part.address)) from error
         except Exception as error:
             raise InvalidComponent(raised(part.type, "build", part.address, error)) from error
-        reads.extend((index[part.address], tie) for tie in mechanics.reads)
-        applies.extend((index[part.address], tie) for tie in mechanics.applies)
-        constants.extend(mechanics.constants)
-        drawings.extend((index[part.address], drawing) for drawing in mechanics.drawings)
-        touching.extend(mechanics.touching)
-        lifts.extend(mechanics.lifts)
-        begins.extend(mechanics.begins)
 
     order = body_order(model)
     for segment, joint in order:
@@ -111,9 +99,17 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
     compiled = _compiled(spec, {str(part.mark): part for part in model.parts})
     spec.option.integrator = compiled.opt.integrator = _integrator(model, compiled)
     compiled.opt.disableflags |= _unused_stages(compiled)
-    known = tuple(of(compiled) for of in constants)
-    seen, stood = (tuple(drawings), tuple(touching)), (tuple(lifts), tuple(begins))
-    return Assembly(spec, compiled, tuple(reads), tuple(applies), known, *seen, *stood)
+    return Assembly(
+        spec,
+        compiled,
+        tuple(made.reads),
+        tuple(made.applies),
+        tuple(of(compiled) for of in made.constants),
+        tuple(made.drawings),
+        tuple(made.touching),
+        tuple(made.lifts),
+        tuple(made.begins),
+    )
 
 
 def _integrator(model: Model, compiled: Any) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import inspect
 from pathlib import Path
 
 import mujoco
@@ -10,7 +11,9 @@ import numpy as np
 import pytest
 from simulation.models import HOPPER, OWN, SPECS, model, written
 
+from gaitsim.compiler.mechanics.verbs import Mechanics
 from gaitsim.compiler.mjcf import assemble
+from gaitsim.components.checks.build import VERBS
 from gaitsim.errors import InvalidSpec
 from gaitsim.simulation.run import Simulator
 
@@ -145,3 +148,11 @@ def test_nothing_reads_the_clock_in_a_step() -> None:
     Simulator(written(BODIES))
     library = ctypes.CDLL(str(next(Path(mujoco.__file__).parent.glob("libmujoco.*"))))
     assert ctypes.c_void_p.in_dll(library, "mjcb_time").value is None
+
+
+@pytest.mark.parametrize("verb", sorted(VERBS))
+def test_names_that_a_verb_takes_are_checked_before_it_runs(verb: str) -> None:
+    """The table of the checks counts as many leading names as the verb has; annotations are texts there."""
+    count, _, _ = VERBS[verb]
+    _, *arguments = inspect.signature(getattr(Mechanics, verb)).parameters.values()
+    assert [argument.annotation for argument in arguments[:count]] == ["str"] * count

@@ -8,8 +8,8 @@ from collections.abc import Iterator, Mapping
 from gaitsim.component import Attachment, Declaration, Frame, Input, Output
 from gaitsim.errors import did_you_mean
 
-# Which of a call's leading arguments name something declared, and as what.
-_NAMED: Mapping[str, tuple[int, tuple[type, ...], str]] = {
+# How many of a verb's leading arguments name something declared, and as what.
+VERBS: Mapping[str, tuple[int, tuple[type, ...], str]] = {
     "frame": (1, (Frame,), "frame"),
     "attached": (1, (Attachment,), "attachment"),
     "tendon_between": (2, (Attachment,), "attachment"),
@@ -47,7 +47,7 @@ def _named(build: ast.FunctionDef) -> Iterator[tuple[str, ast.expr, tuple[type, 
     for node in ast.walk(build):
         if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Attribute)):
             continue
-        if isinstance(node.func.value, ast.Name) and node.func.value.id == side and node.func.attr in _NAMED:
-            count, kinds, what = _NAMED[node.func.attr]
+        if isinstance(node.func.value, ast.Name) and node.func.value.id == side and node.func.attr in VERBS:
+            count, kinds, what = VERBS[node.func.attr]
             for argument in node.args[:count]:
                 yield node.func.attr, argument, kinds, what

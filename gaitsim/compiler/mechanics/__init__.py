@@ -1,0 +1,1 @@
+"""Verbs of mechanics: what `build(p, mj)` of a component can make."""

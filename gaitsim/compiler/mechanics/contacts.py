@@ -1,0 +1,53 @@
+"""Contacts: the ground, and what it carries."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import mujoco
+
+from gaitsim.compiler.ground import add_ground, add_surface
+from gaitsim.compiler.mechanics.sensors import Sensors
+from gaitsim.compiler.places import Point, Touching, Vector
+from gaitsim.compiler.ties import Element
+
+
+class Contacts(Sensors):
+    """Verbs that make the ground, and keep bodies out of it."""
+
+    def ground(self, angle: float = 0.0, edges: Sequence[tuple[float, float]] = ()) -> None:
+        """The ground of the whole model: it rises forwards by an angle (rad) and has steps at its edges.
+
+        An edge is a position along it and the height behind it, in m. `push` and `position_of` of
+        the part around this one count from it if they are given this one's name.
+        """
+        add_surface(self.spec, self._name("surface"), angle, self._info)
+        add_ground(self.spec, angle, edges, self._info)
+
+    def collide(self, place: Point, radius: float, friction: float, solref: Vector, solimp: Vector) -> Element:
+        """A sphere that MuJoCo keeps out of the ground; gives a sensor of its force on the ground, in N."""
+        # With the pyramidal cone the depth at rest would depend on friction: 1.6 to 100 mm for 0.5 to 2.
+        self.spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+        sphere = self._name("sphere")
+        place.body.add_geom(
+            name=sphere,
+            type=mujoco.mjtGeom.mjGEOM_SPHERE,
+            pos=list(place.position),
+            size=[float(radius), 0, 0],
+            mass=0,
+            contype=0,
+            conaffinity=1,
+            priority=1,  # its numbers hold, not a mean of them with the ground's
+            friction=[float(friction), 0.005, 0.0001],
+            solref=[float(v) for v in solref],
+            solimp=[float(v) for v in solimp],
+            info=self._info,
+        )
+        sensor = self._sensor("touch", mujoco.mjtSensor.mjSENS_CONTACT, sphere, mujoco.mjtObj.mjOBJ_GEOM)
+        made = self.spec.sensor(sensor.name)
+        made.intprm = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]  # the force alone, net of all contacts
+        return sensor
+
+    def touches(self, place: Point, radius: float = 0.0) -> None:
+        """Tell that the ground carries the body here: a point, or a sphere of a radius in m."""
+        self.made.touching.append(Touching(place.body.name, place.position, float(radius)))

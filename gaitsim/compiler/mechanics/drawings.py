@@ -1,0 +1,55 @@
+"""Drawings: what is only to be looked at."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import mujoco
+
+from gaitsim.compiler.mechanics.making import Making
+from gaitsim.compiler.places import DrawnForce, DrawnLine, Moved, Point, Vector
+from gaitsim.errors import did_you_mean
+
+
+class Drawings(Making):
+    """Verbs that draw; none changes the mechanics."""
+
+    def draw_sphere(self, position: Vector, radius: float) -> None:
+        """A massless sphere to look at."""
+        self._draw(type=mujoco.mjtGeom.mjGEOM_SPHERE, pos=self._mirrored(position), size=[float(radius), 0, 0])
+
+    def draw_rod(self, start: Vector, end: Vector, radius: float) -> None:
+        """A massless capsule to look at."""
+        ends = [*self._mirrored(start), *self._mirrored(end)]
+        self._draw(type=mujoco.mjtGeom.mjGEOM_CAPSULE, fromto=ends, size=[float(radius), 0, 0])
+
+    def draw_line(self, points: Sequence[Point | Moved], radius: float) -> None:
+        """A line to look at where there is no body, such as a massless leg; radius in m."""
+        moved = tuple(place if isinstance(place, Moved) else Moved(place) for place in points)
+        for way in (way for place in moved for way in (place.forward, place.up) if way is not None):
+            self._check_output("draw_line", way[0])
+        self.made.drawings.append((self.index, DrawnLine(moved, float(radius))))
+
+    def moved(
+        self, place: Point, forward: tuple[str, float] | None = None, up: tuple[str, float] | None = None
+    ) -> Moved:
+        """For `draw_line`: a place moved in the world by outputs in m, such as up=("length", -0.5)."""
+        return Moved(place, forward, up)
+
+    def draw_force(self, place: Point, up: str | None = None, forward: str | None = None, surface: str = "") -> None:
+        """An arrow to look at: the force on a place, from outputs in N along axes as `push` has them."""
+        for port in (port for port in (up, forward) if port is not None):
+            self._check_output("draw_force", port)
+        site = self._name(f"{surface}.surface") if surface else ""
+        self.made.drawings.append((self.index, DrawnForce(place, forward, up, site)))
+
+    def _check_output(self, call: str, port: str) -> None:
+        outputs = self.part.type.outputs
+        if port not in outputs:
+            hint = did_you_mean(port, outputs)
+            raise ValueError(f"mj.{call} names {port}, which is declared as no output. {hint}")
+
+    def _draw(self, **shape: Any) -> None:
+        if self.dressed:
+            self.own_body.add_geom(**self._massless, **shape)

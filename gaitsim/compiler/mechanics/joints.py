@@ -1,0 +1,65 @@
+"""Joints: how a body moves on the one that carries it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import mujoco
+
+from gaitsim.compiler.mechanics.making import Making
+from gaitsim.compiler.places import Vector
+from gaitsim.compiler.ties import Element
+
+
+class Joints(Making):
+    """Verbs that let the child of the part move, and say where it begins."""
+
+    def slide(self, axis: Vector, suffix: str = "", damping: float = 0.0) -> Element:
+        """A translation of the child along an axis; damping in N s/m."""
+        return self._joint(mujoco.mjtJoint.mjJNT_SLIDE, self._mirrored(axis), suffix, damping)
+
+    def hinge(
+        self,
+        axis: Vector,
+        suffix: str = "",
+        damping: float = 0.0,
+        limits: Sequence[float] | None = None,
+        neutral: float = 0.0,
+        armature: float = 0.0,
+    ) -> Element:
+        """A rotation of the child about an axis; damping in N m s/rad.
+
+        Its coordinate is `neutral` (rad) where the frames are aligned. Limits in rad are told to
+        whoever plots the joint; what happens there is the part's own. The armature (kg m^2) is
+        inertia of this coordinate alone, such as that of a drive's rotor.
+        """
+        x, y, z = (float(v) for v in axis)
+        # An axis is a pseudovector: mirrored in y, its x and z turn round and its y stays.
+        turned = (-x, y, -z) if self.part.mirrored else (x, y, z)
+        joint = self._joint(mujoco.mjtJoint.mjJNT_HINGE, turned, suffix, damping)
+        made = self.spec.joint(joint.name)
+        made.ref, made.armature = float(neutral), float(armature)
+        if limits is not None:
+            made.range, made.limited = [float(limit) for limit in limits], False
+        return joint
+
+    def begins_at(self, joint: Element, position: float, velocity: float) -> None:
+        """Let a joint begin at a coordinate and a velocity of its own, in SI, unless `initial:` sets them."""
+        self.made.begins.append((joint.name, float(position), float(velocity)))
+
+    def stands_on(self, lift: Element) -> None:
+        """Let this vertical joint put the lowest place that touches on the ground, unless `initial:` sets it."""
+        self.made.lifts.append(lift.name)
+
+    def _joint(self, kind: Any, axis: Vector, suffix: str, damping: float) -> Element:
+        child = self.frames.point(self.part.attachments["child"])
+        child.body.add_joint(
+            name=self._name(suffix),
+            type=kind,
+            axis=list(axis),
+            pos=list(child.position),
+            damping=[float(damping), 0, 0],
+            info=self._info,
+        )
+        return Element("joint", self._name(suffix))

@@ -1,0 +1,65 @@
+"""What all verbs of mechanics share: whose elements they make, and where what they make is gathered."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from gaitsim.compiler.places import DrawnForce, DrawnLine, Frames, Point, Touching, Vector
+from gaitsim.compiler.ties import Tie
+from gaitsim.model import Part
+
+
+@dataclass
+class Made:
+    """What the parts of a model make beside MuJoCo's elements; ties and drawings with the index of their part."""
+
+    reads: list[tuple[int, Tie]] = field(default_factory=list)
+    applies: list[tuple[int, Tie]] = field(default_factory=list)
+    constants: list[Callable[[Any], float]] = field(default_factory=list)
+    drawings: list[tuple[int, DrawnLine | DrawnForce]] = field(default_factory=list)
+    touching: list[Touching] = field(default_factory=list)
+    lifts: list[str] = field(default_factory=list)
+    begins: list[tuple[str, float, float]] = field(default_factory=list)
+
+
+@dataclass
+class Making:
+    """One part at work: everything it makes bears its address and its place in the spec.
+
+    Positions are in the frame of the part's own body: x forwards, y to the left, z up. What is
+    written for the right side is mirrored in y for the left.
+    """
+
+    spec: Any
+    part: Part
+    frames: Frames
+    made: Made
+    index: int
+    dressed: bool = True
+    own_body: Any = None
+
+    @property
+    def _info(self) -> str:
+        return str(self.part.mark)
+
+    def _name(self, suffix: str) -> str:
+        return f"{self.part.address}.{suffix}" if suffix else self.part.address
+
+    def _mirrored(self, vector: Vector) -> tuple[float, float, float]:
+        x, y, z = (float(v) for v in vector)
+        return (x, -y if self.part.mirrored else y, z)
+
+    def attached(self, name: str, offset: Vector = (0, 0, 0)) -> Point:
+        """The place of one of the part's attachments, moved by an offset in m."""
+        return self.frames.point(self.part.attachments[name], self._mirrored(offset))
+
+    def _site(self, suffix: str, point: Point, radius: float = 0.005) -> str:
+        name = self._name(suffix)
+        point.body.add_site(name=name, pos=list(point.position), size=[radius] * 3, info=self._info)
+        return name
+
+    @property
+    def _massless(self) -> dict[str, Any]:
+        return {"contype": 0, "conaffinity": 0, "mass": 0, "info": self._info}

@@ -1,0 +1,71 @@
+"""Paths: tendons through points and around cylinders."""
+
+from __future__ import annotations
+
+import itertools
+from collections.abc import Sequence
+
+import mujoco
+import numpy as np
+
+from gaitsim.compiler.mechanics.making import Making
+from gaitsim.compiler.places import Point, Vector, Wrap
+from gaitsim.compiler.ties import Element
+
+
+class Paths(Making):
+    """Verbs that lay tendons, and hold two equally long."""
+
+    def tendon(self, places: Sequence[Point | Wrap], suffix: str = "") -> Element:
+        """A tendon through points and around cylinders, straight between them."""
+        tendon = self.spec.add_tendon(name=self._name(suffix), info=self._info)
+        for i, place in enumerate(places):
+            if isinstance(place, Wrap):
+                tendon.wrap_geom(place.geom, place.side)
+            else:
+                tendon.wrap_site(self._site(f"{suffix}.points.{i}".lstrip("."), place))
+        return Element("tendon", self._name(suffix))
+
+    def tendon_between(self, first: str, second: str) -> Element:
+        """A straight tendon between two of the part's attachments."""
+        return self.tendon([self.attached(name) for name in (first, second)])
+
+    def cylinder(self, center: Point, radius: float, side: Point, axis: Vector = (0, 1, 0)) -> Wrap:
+        """A massless cylinder for tendons to bend around, at the side of a place; radius in m."""
+        geom = self._name("cylinder")
+        quat = np.zeros(4)
+        mujoco.mju_quatZ2Vec(quat, np.array(axis, dtype=np.float64))
+        center.body.add_geom(
+            name=geom,
+            type=mujoco.mjtGeom.mjGEOM_CYLINDER,
+            pos=list(center.position),
+            quat=quat,
+            size=[float(radius), 0.02, 0],
+            **self._massless,
+        )
+        return Wrap(geom, self._site("side", side))
+
+    def equal_lengths(self, first: Element, second: Element, time_constant: float, impedance: float) -> None:
+        """Keep two tendons equally long: one row of MuJoCo's equality constraints, critically damped."""
+        equality = self.spec.add_equality(
+            name=self._name("equality"),
+            type=mujoco.mjtEq.mjEQ_TENDON,
+            name1=first.name,
+            name2=second.name,
+            solref=[float(time_constant), 1],
+            solimp=[float(impedance), float(impedance), 0.001, 0.5, 2],
+            info=self._info,
+        )
+        # MuJoCo counts from the lengths in the posture where all coordinates are 0.
+        ahead = self._length_at_zero(second) - self._length_at_zero(first)
+        equality.data[:5] = [ahead, 1, 0, 0, 0]
+
+    def _length_at_zero(self, tendon: Element) -> float:
+        ends = [wrap.target for wrap in self.spec.tendon(tendon.name).path]
+        places = []
+        for site in ends:
+            place, body = np.array(site.pos), site.parent
+            while body is not None:
+                place, body = place + body.pos, body.parent
+            places.append(place)
+        return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(places)))

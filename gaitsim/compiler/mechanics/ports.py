@@ -1,0 +1,48 @@
+"""Ports: which numbers of MuJoCo an output is, and where an input is written to."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable
+from typing import Any
+
+import mujoco
+
+from gaitsim.compiler.mechanics.making import Making
+from gaitsim.compiler.ties import Element, Tie, tied
+
+
+class Ports(Making):
+    """Verbs that tie ports to numbers of MuJoCo's data."""
+
+    def read(self, port: str, element: Element, field_name: str, index: int = 0) -> None:
+        """Let an output be a number of MuJoCo's data: qpos, ten_length, actuator_velocity, sensordata ..."""
+        self.made.reads.append((self.index, tied(port, element, field_name, index)))
+
+    def read_energy(self, potential: str, kinetic: str) -> None:
+        """Let two outputs be MuJoCo's potential and kinetic energy."""
+        self.spec.option.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
+        ties = (Tie(potential, None, "energy", 0), Tie(kinetic, None, "energy", 1))
+        self.made.reads += [(self.index, tie) for tie in ties]
+
+    def read_weight(self, port: str) -> None:
+        """Let an output be the weight of everything that moves, in N."""
+        self._read_constant(port, lambda model: -float(model.opt.gravity[2] * model.body_subtreemass[0]))
+
+    def read_key(self, port: str) -> None:
+        """Let an output be a whole number below 2^32 that this part's address gives.
+
+        Two parts with one seed draw different numbers if they are keyed by it.
+        """
+        key = float(zlib.crc32(self.part.address.encode()))
+        self._read_constant(port, lambda model: key)
+
+    def apply(self, port: str, element: Element, field_name: str, sign: float = 1.0) -> None:
+        """Write an input or output into MuJoCo's data: qfrc_applied of a joint, ctrl of an actuator."""
+        self.made.applies.append((self.index, tied(port, element, field_name, 0, sign)))
+
+    def _read_constant(self, port: str, of: Callable[[Any], float]) -> None:
+        place = max(self.spec.nuserdata, 0)
+        self.spec.nuserdata = place + 1
+        self.made.reads.append((self.index, Tie(port, None, "userdata", place)))
+        self.made.constants.append(of)

@@ -1,0 +1,40 @@
+"""Sensors: where bodies and the center of mass are, and how they move."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import mujoco
+
+from gaitsim.compiler.mechanics.making import Making
+from gaitsim.compiler.places import Point
+from gaitsim.compiler.ties import Element
+
+
+class Sensors(Making):
+    """Verbs that make MuJoCo measure something."""
+
+    def position_of(self, place: Point, surface: str = "", suffix: str = "position") -> Element:
+        """A sensor of where a place is in the world, or on the ground of an inner part: three numbers, in m."""
+        sensor = self._sensor(suffix, mujoco.mjtSensor.mjSENS_FRAMEPOS, self._site(f"{suffix}.origin", place))
+        if surface:
+            made = self.spec.sensor(sensor.name)
+            made.reftype, made.refname = mujoco.mjtObj.mjOBJ_SITE, self._name(f"{surface}.surface")
+        return sensor
+
+    def orientation_of(self, place: Point) -> tuple[Element, Element]:
+        """Sensors of a place's own z axis in the world, and of its angular velocity there in rad/s."""
+        site = self._site("axis", place)
+        axis = self._sensor("direction", mujoco.mjtSensor.mjSENS_FRAMEZAXIS, site)
+        return axis, self._sensor("angular_velocity", mujoco.mjtSensor.mjSENS_FRAMEANGVEL, site)
+
+    def center_of_mass(self) -> tuple[Element, Element]:
+        """Sensors of where the center of mass of all that moves is, in m, and of its velocity."""
+        body = mujoco.mjtObj.mjOBJ_BODY
+        position = self._sensor("position", mujoco.mjtSensor.mjSENS_SUBTREECOM, "world", body)
+        return position, self._sensor("velocity", mujoco.mjtSensor.mjSENS_SUBTREELINVEL, "world", body)
+
+    def _sensor(self, suffix: str, kind: Any, of: str, what: Any = mujoco.mjtObj.mjOBJ_SITE) -> Element:
+        name = self._name(suffix)
+        self.spec.add_sensor(name=name, type=kind, objtype=what, objname=of, info=self._info)
+        return Element("sensor", name)
