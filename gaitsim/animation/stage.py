@@ -11,9 +11,9 @@ import numpy as np
 from gaitsim.animation.arms import arm_paths
 from gaitsim.animation.refusal import CannotAnimate
 from gaitsim.animation.routes import Drawer
-from gaitsim.compiler.ground import GROUND
+from gaitsim.compiler.mechanics.ground import GROUND
+from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Point
 from gaitsim.compiler.mjcf import Assembly, assemble, tie_place
-from gaitsim.compiler.places import DrawnForce, DrawnLine, Point
 from gaitsim.errors import Fault
 from gaitsim.model import Model
 

@@ -10,9 +10,9 @@ from typing import Any
 import mujoco
 
 from gaitsim.compiler.mechanics.making import Made
+from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Point, Touching, world_frames
+from gaitsim.compiler.mechanics.ties import Tie
 from gaitsim.compiler.mechanics.verbs import Mechanics, numbers_of
-from gaitsim.compiler.places import DrawnForce, DrawnLine, Point, Touching, world_frames
-from gaitsim.compiler.ties import Tie
 from gaitsim.component import Refused
 from gaitsim.components.load import function_of, raised
 from gaitsim.errors import Fault, Faults, InvalidComponent, InvalidSpec

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 import mujoco
 import numpy as np
 
+from gaitsim.compiler.mechanics.ties import Tie
 from gaitsim.compiler.mjcf import Assembly
 from gaitsim.compiler.program import Floats
-from gaitsim.compiler.ties import Tie
 from gaitsim.model import Model, Part
 from gaitsim.simulation.trial import Trial
 

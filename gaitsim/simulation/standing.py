@@ -7,8 +7,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gaitsim.compiler.ground import GROUND
-from gaitsim.compiler.places import Touching
+from gaitsim.compiler.mechanics.ground import GROUND
+from gaitsim.compiler.mechanics.places import Touching
 from gaitsim.errors import SimulationFailed
 
 _ABOVE = 100.0  # m: from where one looks down for the ground

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from gaitsim.compiler.mechanics.making import Making
-from gaitsim.compiler.places import Point, Vector
+from gaitsim.compiler.mechanics.places import Point, Vector
 
 
 class Bodies(Making):

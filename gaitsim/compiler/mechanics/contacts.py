@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import mujoco
 
-from gaitsim.compiler.ground import add_ground, add_surface
+from gaitsim.compiler.mechanics.ground import add_ground, add_surface
+from gaitsim.compiler.mechanics.places import Point, Touching, Vector
 from gaitsim.compiler.mechanics.sensors import Sensors
-from gaitsim.compiler.places import Point, Touching, Vector
-from gaitsim.compiler.ties import Element
+from gaitsim.compiler.mechanics.ties import Element
 
 
 class Contacts(Sensors):

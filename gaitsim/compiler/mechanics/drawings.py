@@ -8,7 +8,7 @@ from typing import Any
 import mujoco
 
 from gaitsim.compiler.mechanics.making import Making
-from gaitsim.compiler.places import DrawnForce, DrawnLine, Moved, Point, Vector
+from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Moved, Point, Vector
 from gaitsim.errors import did_you_mean
 
 

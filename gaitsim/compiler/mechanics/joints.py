@@ -8,8 +8,8 @@ from typing import Any
 import mujoco
 
 from gaitsim.compiler.mechanics.making import Making
-from gaitsim.compiler.places import Vector
-from gaitsim.compiler.ties import Element
+from gaitsim.compiler.mechanics.places import Vector
+from gaitsim.compiler.mechanics.ties import Element
 
 
 class Joints(Making):

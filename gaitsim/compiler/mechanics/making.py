@@ -6,8 +6,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from gaitsim.compiler.places import DrawnForce, DrawnLine, Frames, Point, Touching, Vector
-from gaitsim.compiler.ties import Tie
+from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Touching, Vector
+from gaitsim.compiler.mechanics.ties import Tie
 from gaitsim.model import Part
 
 

@@ -9,8 +9,8 @@ import mujoco
 import numpy as np
 
 from gaitsim.compiler.mechanics.making import Making
-from gaitsim.compiler.places import Point, Vector, Wrap
-from gaitsim.compiler.ties import Element
+from gaitsim.compiler.mechanics.places import Point, Vector, Wrap
+from gaitsim.compiler.mechanics.ties import Element
 
 
 class Paths(Making):

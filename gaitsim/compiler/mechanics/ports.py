@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 
 from gaitsim.compiler.mechanics.making import Making
-from gaitsim.compiler.ties import Element, Tie, tied
+from gaitsim.compiler.mechanics.ties import Element, Tie, tied
 
 
 class Ports(Making):

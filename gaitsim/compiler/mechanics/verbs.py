@@ -11,9 +11,9 @@ from gaitsim.compiler.mechanics.contacts import Contacts
 from gaitsim.compiler.mechanics.drawings import Drawings
 from gaitsim.compiler.mechanics.joints import Joints
 from gaitsim.compiler.mechanics.paths import Paths
+from gaitsim.compiler.mechanics.places import Frames, Vector
 from gaitsim.compiler.mechanics.ports import Ports
 from gaitsim.compiler.mechanics.sensors import Sensors
-from gaitsim.compiler.places import Frames, Vector
 from gaitsim.model import Part
 
 
