@@ -1,27 +1,28 @@
 """gaitsim: neuromuscular gait models from YAML, simulated in native code.
 
-In a notebook: `gaitsim.load("results/2026-11-22-hopping-3f9c").trajectory()`.
+In a notebook: `gaitsim.run("walk.yaml", set={"simulate.duration": "2 s"})`, `gaitsim.optimize("walk.yaml")`,
+`gaitsim.load("results/2026-11-22-hopping-3f9c").trajectory()`.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
-    from gaitsim.study.result import Result
-
-__version__ = "0.1.0"
-__all__ = ["__version__", "load"]
-
-
-def load(folder: str | Path, candidate: str = "best", trust: bool = False) -> Result:
-    """A result folder: its record, and its signals as labelled arrays with units.
-
-    candidate: best, a rank, or GENERATION:INDEX of a search; of a study best, or the number of a run.
-    trust: run components that this machine does not know. Errors: gaitsim.errors.GaitsimError.
-    """
+    from gaitsim.study.notebook import analyze, check, limit, optimize, run
     from gaitsim.study.result import load
 
-    return load(folder, candidate, trust)
+__version__ = "0.1.0"
+__all__ = ["__version__", "analyze", "check", "limit", "load", "optimize", "run"]
+
+_HOMES = dict.fromkeys(("analyze", "check", "limit", "optimize", "run"), "gaitsim.study.notebook") | {
+    "load": "gaitsim.study.result"
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Imported when it is asked for: the command line does not wait for it."""
+    if name in _HOMES:
+        return getattr(import_module(_HOMES[name]), name)
+    raise AttributeError(f"module 'gaitsim' has no attribute {name!r}")

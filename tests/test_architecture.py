@@ -86,6 +86,11 @@ def test_only_the_cli_prints() -> None:
     assert calls == {"cli/console.py"}
 
 
+def test_the_study_is_what_commands_and_notebooks_call() -> None:
+    assert users("gaitsim.cli") == {"cli"}
+    assert users("gaitsim.study") <= {"__init__.py", "cli", "study"}
+
+
 def test_no_module_imports_itself_through_others() -> None:
     arrows = {name: {other for other in imports(path) if other in MODULES} for name, path in MODULES.items()}
     assert first_ring(arrows) == []

@@ -41,33 +41,17 @@ def check(
 
     gaitsim check specs/hopping_leg_mass.yaml --convergence
     """
-    from gaitsim.analysis.models.moment_arms import draw, table, warnings
-    from gaitsim.cli.convergence import convergence_of, data, give
-    from gaitsim.cluster.episodes import episode_models
-    from gaitsim.simulation.moment_arms import moment_arms
-    from gaitsim.simulation.run import Simulator
-    from gaitsim.spec.study import variants
-    from gaitsim.study.starts import Starts
+    from gaitsim.analysis.models.moment_arms import draw, table
+    from gaitsim.cli.convergence import data, give
+    from gaitsim.study.soundness import checked
 
-    # What is simulated is what `run` would simulate.
-    source = opening(spec, settings, library, tuned=convergence, trusted=trust).source()
-    rows = variants(source.document, [])
-    models = [source.model(row.document) for row in rows]
-    starts = Starts(source)
-    for each in (*models, *episode_models(source.document, source.library, source.name)):
-        starts.look_at(Simulator(each))
-    model = models[0]
-    for notice in (*source.notices, *model.notices):
-        console.say(notice)
-    arms = moment_arms(model)
-    doubts = [*starts.unusual, *warnings(arms)]
-    for doubt in doubts:
-        console.say(f"warning: {doubt}")
-    picture = folder / f"{source.name}.moment_arms.png" if plot and arms else None
+    # With --convergence, what is simulated is what `run` would simulate.
+    opened = opening(spec, settings, library, tuned=convergence, trusted=trust)
+    sound = checked(opened, convergence, console.Talk(json))
+    model, arms, found = sound.models[0], sound.arms, sound.convergence
+    picture = folder / f"{model.name}.moment_arms.png" if plot and arms else None
     if picture is not None:
-        draw(arms, picture, source.name)
-    with console.waiting("simulating", quiet=json):
-        found = convergence_of(models) if convergence else []
+        draw(arms, picture, model.name)
     counts = {
         "parts": len(model.parts),
         "connections": len(model.connections),
@@ -75,13 +59,13 @@ def check(
         "metrics": len(model.metrics),
     }
     if json:
-        told = {"notices": [*source.notices, *model.notices], "warnings": [_line(doubt) for doubt in doubts]}
+        told = {"notices": sound.notices, "warnings": [_line(doubt) for doubt in sound.doubts]}
         drawn = {"plot": str(picture) if picture else None, "moment_arms": table(arms)} if plot else {}
         changes = {"convergence": [data(one, tolerance) for one in found]} if convergence else {}
         console.give_json({"status": "valid", **counts, **told, **drawn, **changes})
         return
     console.give(f"{spec}: valid ({', '.join(f'{n} {name}' for name, n in counts.items())})")
-    for row, converged in zip(rows, found, strict=False):
+    for row, converged in zip(sound.rows, found, strict=False):
         if row.settings:
             console.give("\n" + ", ".join(f"{address} = {value}" for address, value in row.settings.items()))
         give(converged, tolerance)

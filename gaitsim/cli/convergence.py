@@ -2,27 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any
 
 from gaitsim.cli import console
 
 if TYPE_CHECKING:
     from gaitsim.analysis.models.step_convergence import StepConvergence
-    from gaitsim.model import Model
-
-
-def convergence_of(models: Sequence[Model]) -> list[StepConvergence]:
-    """Each model at its step, a half and a quarter; failed runs are told."""
-    from gaitsim.analysis.models.step_convergence import step_convergence
-
-    found = []
-    for model in models:
-        found.append(step_convergence(model))
-        for step, outcome in zip(found[-1].steps, found[-1].outcomes, strict=True):
-            if outcome.status == "failed":
-                console.say(f"at a step of {_milliseconds(step)}: failed: {outcome.reason}")
-    return found
 
 
 def give(found: StepConvergence, tolerance: float) -> None:

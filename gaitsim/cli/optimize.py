@@ -64,18 +64,15 @@ def optimize(
 
     gaitsim optimize specs/hopping_geyer2003.yaml --resume
     """
-    from gaitsim.errors import ExitCode, Usage
-    from gaitsim.results.manifest import is_result
-    from gaitsim.study.adoption import adopt as adopted
-    from gaitsim.study.searches import Request, begun, resumed
+    from gaitsim.errors import ExitCode
+    from gaitsim.study.adoption import adopted
+    from gaitsim.study.searches import Request, begun, check_adoption, resumed
     from gaitsim.study.workplace import Workplace
 
-    if force and not adopt:
-        raise Usage("--force is of --adopt: it replaces better values; add --adopt, or leave it out.")
-    if adopt and is_result(spec):
-        raise Usage(f"--adopt writes beside a spec, and {spec} is a result; name the spec, with --resume.")
+    opened = opening(spec, settings, library, tuned=False, trusted=trust)
+    check_adoption(opened, adopt, force)
     request = Request(
-        opening=opening(spec, settings, library, tuned=False, trusted=trust),
+        opening=opened,
         algorithm=algorithm,
         population=population,
         generations=generations,
@@ -95,8 +92,7 @@ def optimize(
     except KeyboardInterrupt:
         return _interrupted(tuning, workplace, json)
     wall = time.perf_counter() - began
-    options = ["--smoke" if smoke else "--resume", *request.words, *workplace.words]
-    adoption = adopted(tuning, spec, progress, force, options) if adopt else None
+    adoption = adopted(tuning, request, workplace, progress, force) if adopt else None
     _report(tuning, progress, wall, json, adoption)
     return 0 if adoption is None or adoption.written else ExitCode.USAGE
 

@@ -13,10 +13,10 @@ from gaitsim.results.store import CannotSave
 from gaitsim.results.tuned import read_tuned, tuned_path, write_tuned
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from gaitsim.optimization.search import Progress
+    from gaitsim.study.searches import Request
     from gaitsim.study.tuning import Tuning
+    from gaitsim.study.workplace import Workplace
 
 
 @dataclass(frozen=True)
@@ -27,17 +27,18 @@ class Adoption:
     words: str
 
 
-def adopt(tuning: Tuning, spec: Path, progress: Progress, force: bool, options: Sequence[str]) -> Adoption:
+def adopted(tuning: Tuning, request: Request, workplace: Workplace, progress: Progress, force: bool) -> Adoption:
     """Write the best values of a search beside its spec, unless the values there have a lower score.
 
-    options: with which the command comes to this search again. Errors: CannotSave.
+    Errors: CannotSave.
     """
     best = progress.best
     assert best is not None and best.verdict.score is not None
+    spec = request.opening.path
     path, score = tuned_path(spec), best.verdict.score
     reason = "" if force else _reason(tuning, path, score)
     if reason:
-        again = shlex.join(["gaitsim", "optimize", str(spec), *options, "--adopt", "--force"])
+        again = shlex.join(["gaitsim", "optimize", str(spec), *_options(request, workplace), "--adopt", "--force"])
         return Adoption(False, f"{path} is kept: {reason}. To replace it: {again}")
     values = dict(zip((f.address for f in tuning.model.free), best.candidate.x, strict=True))
     units = {f.address: f.unit for f in tuning.model.free}
@@ -47,6 +48,11 @@ def adopt(tuning: Tuning, spec: Path, progress: Progress, force: bool, options: 
         reason = error.strerror or str(error)
         rule = f"the tuned values cannot be written ({reason}); they are saved in {tuning.folder}"
         raise CannotSave(f"{path}: {rule}.") from error
+
+
+def _options(request: Request, workplace: Workplace) -> list[str]:
+    """With which the command comes to this search again."""
+    return ["--smoke" if request.smoke else "--resume", *request.words, *workplace.words]
 
 
 def _reason(tuning: Tuning, path: Path, score: float) -> str:

@@ -58,6 +58,14 @@ class Request:
         return [*settings, *(word for folder in self.opening.folders for word in ("--library", str(folder)))]
 
 
+def check_adoption(opening: Opening, adopt: bool, force: bool) -> None:
+    """Errors: Usage for an adoption that cannot be."""
+    if force and not adopt:
+        raise Usage("--force is of --adopt: it replaces better values; add --adopt, or leave it out.")
+    if adopt and opening.names_result:
+        raise Usage(f"--adopt writes beside a spec, and {opening.path} is a result; name the spec, with --resume.")
+
+
 def begun(request: Request, root: Path) -> Tuning:
     """A new search in a new result folder."""
     path = request.opening.path

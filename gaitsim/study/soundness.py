@@ -1,0 +1,79 @@
+"""Whether what was opened is sound: its models, how they start, their moment arms, and whether the step is short."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from gaitsim.analysis.models.moment_arms import warnings
+from gaitsim.cluster.episodes import episode_models
+from gaitsim.simulation.moment_arms import moment_arms
+from gaitsim.simulation.run import Simulator
+from gaitsim.spec.study import variants
+from gaitsim.study.starts import Starts
+
+if TYPE_CHECKING:
+    from gaitsim.analysis.models.step_convergence import StepConvergence
+    from gaitsim.errors import Fault
+    from gaitsim.model import Model
+    from gaitsim.simulation.moment_arms import MomentArm
+    from gaitsim.spec.study import Variant
+    from gaitsim.study.listening import Listener
+    from gaitsim.study.opening import Opening
+
+
+@dataclass(frozen=True)
+class Soundness:
+    """What a check found of a spec that is valid.
+
+    rows, models: of its study; one without a study. notices: what a reader should know. doubts: what is unusual.
+    arms: of each path about each hinge. convergence: of each model, what a half and a quarter of the step change.
+    """
+
+    rows: Sequence[Variant]
+    models: Sequence[Model]
+    notices: Sequence[str]
+    doubts: Sequence[Fault]
+    arms: Sequence[MomentArm]
+    convergence: Sequence[StepConvergence]
+
+
+def checked(opening: Opening, convergence: bool, listener: Listener) -> Soundness:
+    """Resolve and compile what is opened; simulate it only for its convergence.
+
+    Errors: InvalidSpec with all faults, InvalidComponent, BadResult, Untrusted, Usage.
+    """
+    source = opening.source()
+    rows = variants(source.document, [])
+    models = [source.model(row.document) for row in rows]
+    starts = Starts(source)
+    for each in (*models, *episode_models(source.document, source.library, source.name)):
+        starts.look_at(Simulator(each))
+    notices = [*source.notices, *models[0].notices]
+    for notice in notices:
+        listener.say(notice)
+    arms = moment_arms(models[0])
+    doubts = [*starts.unusual, *warnings(arms)]
+    for doubt in doubts:
+        listener.say(f"warning: {doubt}")
+    with listener.waiting("simulating"):
+        found = _convergence_of(models, listener) if convergence else []
+    return Soundness(rows, models, notices, doubts, arms, found)
+
+
+def _convergence_of(models: Sequence[Model], listener: Listener) -> list[StepConvergence]:
+    """Each model at its step, a half and a quarter; failed runs are told."""
+    from gaitsim.analysis.models.step_convergence import step_convergence
+
+    found = []
+    for model in models:
+        found.append(step_convergence(model))
+        for step, outcome in zip(found[-1].steps, found[-1].outcomes, strict=True):
+            if outcome.status == "failed":
+                listener.say(f"at a step of {_milliseconds(step)}: failed: {outcome.reason}")
+    return found
+
+
+def _milliseconds(step: float) -> str:
+    return f"{1e3 * step:.4g} ms"

@@ -1,0 +1,136 @@
+"""The functions of a notebook do what the commands do, with values in place of text and errors in place of exits."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import pytest
+from cli.commands import gaitsim as command
+
+import gaitsim
+from gaitsim.errors import GaitsimError, Usage
+from gaitsim.results.store import CannotSave
+from gaitsim.study.notebook import opening
+
+STONE = """
+gaitsim: 1
+parts:
+  stone: {use: segment/point_mass, mass: 1 kg}
+  guide: {use: joint/vertical, parent: world, child: stone.center}
+initial: {guide.position: {value: 40 cm, tune: [20 cm, 60 cm]}}
+measures:
+  landed: {use: measure/fall, height: {from: guide.position}, below: 0 m}
+  way: {use: measure/range, signal: {from: guide.position}}
+objective: {use: objective/maximize, value: {from: landed}}
+simulate: {duration: 0.3 s, step: 1 ms}
+"""
+HEIGHT = "initial.guide.position"
+
+
+@pytest.fixture
+def spec(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    monkeypatch.chdir(tmp_path)
+    path = tmp_path / "stone.yaml"
+    path.write_text(STONE, encoding="utf-8")
+    return path
+
+
+@pytest.fixture(autouse=True)
+def nothing_is_printed(capsys: pytest.CaptureFixture[str]) -> Iterator[None]:
+    yield
+    assert capsys.readouterr() == ("", "")
+
+
+def test_a_run_gives_what_the_command_prints(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    said = command(capsys, "run", str(spec), "--set", "simulate.duration=0.2 s", "--no-save", "--json")
+    made = gaitsim.run(spec, {"simulate.duration": "0.2 s"}, out="stone.csv", every="10 ms")
+    assert dict(made.outcomes[0].metrics) == json.loads(said.out)["metrics"]
+    assert made.single and not made.failed and made.unsaved is None
+    assert made.folder is not None
+    assert gaitsim.load(made.folder).metrics == dict(made.outcomes[0].metrics)
+    rows = Path("stone.csv").read_text().splitlines()[1:4]
+    assert [row.partition(",")[0] for row in rows] == ["0.0", "0.01", "0.02"]
+
+
+def test_numbers_and_words_are_set_as_a_spec_has_them() -> None:
+    settings = opening("x.yaml", {"a.b": 1e-7, "c": True, "d": None, "e": "2 m", "f": [1, 2]}).settings
+    assert settings == ("a.b=1e-07", "c=true", "d=null", "e=2 m", "f=[1, 2]")
+
+
+def test_a_study_is_a_table(spec: Path) -> None:
+    made = gaitsim.run(spec, vary={HEIGHT: ["1 m", "2 m"]}, save=False)
+    table = made.table()
+    assert list(table[HEIGHT]) == ["1 m", "2 m"]
+    assert list(table["status"]) == ["completed", "completed"]
+    assert table["way"][1] == made.outcomes[0].metrics["way"] > 0
+    assert made.folder is None and not Path("results").exists()
+
+
+def test_draws_are_those_of_their_seed(spec: Path) -> None:
+    first, again, other = (gaitsim.run(spec, draws=2, seed=seed, save=False) for seed in (3, 3, 4))
+    starts = [[model.start for model in made.simulated] for made in (first, again, other)]
+    assert starts[0] == starts[1] != starts[2]
+
+
+def test_a_limit_is_a_value(spec: Path) -> None:
+    ranges = {"simulate.gravity": "1 m/s^2:100 m/s^2"}
+    hunt = gaitsim.limit(spec, ranges, {HEIGHT: "2 m"}, tolerance=0.1, points=3, save=False)
+    (limit,) = hunt.limits
+    # After n steps it has fallen by g dt^2 n (n + 1) / 2: by 2 m at the last instant, n = 299, with 44.6 m/s^2.
+    assert limit.first is not None
+    assert float(limit.last.split()[0]) < 44.6 < float(limit.first.split()[0])
+
+
+def test_a_search_is_that_of_the_command(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    found = gaitsim.optimize(spec, smoke=True, seed=1, workers=0, adopt=True)
+    said = command(capsys, "optimize", str(spec), "--smoke", "--seed", "1", "--workers", "0", "--json")
+    told = json.loads(said.out)
+    assert (found.score, found.progress.evaluations) == (told["best_score"], told["evaluations"])
+    journals = [Path(folder) / "evaluations.jsonl" for folder in (found.folder, told["result"])]
+    assert journals[0].read_bytes() == journals[1].read_bytes()
+    assert found.adoption is not None and found.adoption.written
+    best = gaitsim.load(found.folder)
+    assert found.values == dict(best.parameters()["value"])
+    more = gaitsim.optimize(found.folder, resume=True, generations=3, workers=0)
+    assert more.folder == found.folder and more.progress.generation == 3
+
+
+def test_signals_are_looked_at_and_written(spec: Path) -> None:
+    found = gaitsim.analyze(spec, only=True, export="sto", folder="looked")
+    assert [path.name for path in found.products.exports] == ["stone.sto"]
+    assert found.products.faults == [] and found.products.figures == []
+    assert found.replays[0].trajectory["guide.position"][0] == 0.4
+
+
+def test_a_sound_spec_has_models_and_no_doubts(spec: Path) -> None:
+    found = gaitsim.check(spec)
+    assert [free.address for free in found.models[0].free] == [HEIGHT]
+    assert list(found.doubts) == list(found.convergence) == []
+
+
+CALLS = [gaitsim.run, gaitsim.check, gaitsim.analyze, gaitsim.optimize]
+
+
+@pytest.mark.parametrize("call", CALLS, ids=lambda call: call.__name__)
+def test_a_mistake_is_an_error_with_its_words(call: Callable[..., object], spec: Path) -> None:
+    with pytest.raises(GaitsimError) as raised:
+        call(spec, set={"stone.mass": "1 m"})
+    assert "stone.mass: m is a unit of length; this needs a mass" in str(raised.value)
+
+
+def test_what_cannot_be_asked_is_refused(spec: Path) -> None:
+    with pytest.raises(Usage, match=r"--candidate 2: .* is a spec; candidates belong to results\."):
+        gaitsim.run(spec, candidate="2")
+    with pytest.raises(Usage, match="--points 1: a scan has at least 2 values"):
+        gaitsim.limit(spec, {HEIGHT: "1 m:2 m"}, points=1)
+    with pytest.raises(Usage, match="--force is of --adopt"):
+        gaitsim.optimize(spec, force=True)
+    with pytest.raises(TypeError, match="plots"):
+        gaitsim.analyze(spec, plots="*")
+    with pytest.raises(AttributeError, match="module 'gaitsim' has no attribute 'runs'"):
+        _ = gaitsim.runs  # type: ignore[attr-defined]
+    Path("results").write_text("")
+    with pytest.raises(CannotSave, match="results: this is a file"):
+        gaitsim.run(spec)
