@@ -11,7 +11,7 @@ from pathlib import Path
 import psutil
 from rows import Report, Section
 
-from gaitsim.cluster.evaluate import Serial, bench_of
+from gaitsim.cluster.evaluate import Serial, runner_of
 from gaitsim.cluster.local import Local
 from gaitsim.optimization.evaluation import Candidate
 from gaitsim.optimization.search import Evaluator
@@ -62,7 +62,7 @@ def searches(report: Report) -> list[str]:
 
 def _row(seconds: float, population: int) -> dict[str, float]:
     bundle = _bundle(_duration(seconds))
-    serial, local = Serial(bench_of(bundle, "rapid")), Local(bundle, "rapid", WORKERS)
+    serial, local = Serial(runner_of(bundle, "rapid")), Local(bundle, "rapid", WORKERS)
     try:
         measured(local, population)  # how long an evaluation takes is learned
         pairs = [(measured(serial, population), measured(local, population)) for _ in range(PAIRS)]
@@ -112,6 +112,6 @@ def _bundle(duration: float) -> Bundle:
 def _duration(seconds: float) -> float:
     """How long to simulate, so that it takes so many seconds."""
     probe = 20.0
-    (simulator,) = bench_of(_bundle(probe), "rapid").episodes.simulators
+    (simulator,) = runner_of(_bundle(probe), "rapid").episodes.simulators
     took = statistics.median(simulator.run().wall_seconds for _ in range(5))
     return round(probe * seconds / took, 3)

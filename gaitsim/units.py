@@ -128,7 +128,7 @@ class Unit:
     dimension: Dimension
 
     @property
-    def article(self) -> str:
+    def noun_phrase(self) -> str:
         return str(self.dimension)
 
     @property

@@ -1,6 +1,6 @@
 """Pictures of a recorded motion: video files, and MuJoCo's viewer."""
 
 import gaitsim.compiler  # noqa: F401  MuJoCo is imported there first
-from gaitsim.animation.refusal import CannotAnimate, NoDisplay, NoOpenGL
+from gaitsim.animation.errors import CannotAnimate, NoDisplay, NoOpenGL
 
 __all__ = ["CannotAnimate", "NoDisplay", "NoOpenGL"]

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from gaitsim.animation.refusal import CannotAnimate
+from gaitsim.animation.errors import CannotAnimate
 
 Pixels = NDArray[np.uint8]
 _COLOURS = 256

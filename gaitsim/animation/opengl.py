@@ -12,7 +12,7 @@ from typing import Any
 
 import mujoco
 
-from gaitsim.animation.refusal import NoOpenGL
+from gaitsim.animation.errors import NoOpenGL
 
 _LIBRARIES: Mapping[str, tuple[str, ...]] = {
     "egl": ("libEGL.so.1", "libEGL.so"),

@@ -8,7 +8,7 @@ import mujoco
 import numpy as np
 from numpy.typing import NDArray
 
-from gaitsim.animation.refusal import CannotAnimate
+from gaitsim.animation.errors import CannotAnimate
 from gaitsim.animation.stage import Force, Spot, Stage
 from gaitsim.simulation.outcome import Trajectory
 

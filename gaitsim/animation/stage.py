@@ -9,7 +9,7 @@ import mujoco
 import numpy as np
 
 from gaitsim.animation.arms import arm_paths
-from gaitsim.animation.refusal import CannotAnimate
+from gaitsim.animation.errors import CannotAnimate
 from gaitsim.animation.routes import Drawer
 from gaitsim.compiler.mechanics.ground import GROUND
 from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Point

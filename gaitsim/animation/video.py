@@ -16,9 +16,9 @@ from gaitsim.animation.camera import Views, follow
 from gaitsim.animation.canvas import Canvas
 from gaitsim.animation.caption import Caption, room_for
 from gaitsim.animation.encoder import Encoder
+from gaitsim.animation.errors import CannotAnimate
 from gaitsim.animation.panel import Panel
 from gaitsim.animation.posture import Posture, rows_at
-from gaitsim.animation.refusal import CannotAnimate
 from gaitsim.animation.stage import stage_of
 from gaitsim.errors import Usage
 

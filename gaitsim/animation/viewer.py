@@ -13,10 +13,10 @@ import numpy as np
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.animation import overlay
 from gaitsim.animation.camera import FIELD, Views, follow
+from gaitsim.animation.errors import NoDisplay
 from gaitsim.animation.opengl import has_display
 from gaitsim.animation.player import Player
 from gaitsim.animation.posture import Floats, Posture, rows_at
-from gaitsim.animation.refusal import NoDisplay
 from gaitsim.animation.stage import stage_of
 from gaitsim.errors import command
 

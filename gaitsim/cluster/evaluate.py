@@ -16,7 +16,7 @@ from gaitsim.simulation.run import Mode
 
 
 @dataclass(frozen=True)
-class Bench:
+class EpisodeRunner:
     """The episodes of a candidate, and the folder where errors say that their spec and components lie."""
 
     episodes: Episodes
@@ -31,36 +31,36 @@ class Bench:
         return replace(found, reason=reason)
 
 
-# A worker keeps what it compiled: one bench for each bundle and mode.
-_benches: dict[tuple[str, str], Bench] = {}
+# A worker keeps what it compiled: one runner for each bundle and mode.
+_runners: dict[tuple[str, str], EpisodeRunner] = {}
 
 
-def bench_of(bundle: Bundle, mode: Mode) -> Bench:
-    """The bench of a bundle, made from the bundle's own texts and nothing else.
+def runner_of(bundle: Bundle, mode: Mode) -> EpisodeRunner:
+    """The runner of a bundle, made from the bundle's own texts and nothing else.
 
     Errors: InvalidSpec, InvalidComponent.
     """
     key = (bundle.digest, mode)
-    if key not in _benches:
-        _benches[key] = Bench(bundle_episodes(bundle, mode), bundle.folder)
-    return _benches[key]
+    if key not in _runners:
+        _runners[key] = EpisodeRunner(bundle_episodes(bundle, mode), bundle.folder)
+    return _runners[key]
 
 
 def forget(bundle: Bundle, mode: Mode) -> None:
-    """Make the bench anew next time: a thread that does not come back still works on this one."""
-    _benches.pop((bundle.digest, mode), None)
+    """Make the runner anew next time: a thread that does not come back still works on this one."""
+    _runners.pop((bundle.digest, mode), None)
 
 
 class Serial:
     """Evaluates one candidate after the other, in this process."""
 
-    def __init__(self, bench: Bench) -> None:
-        self._bench = bench
+    def __init__(self, runner: EpisodeRunner) -> None:
+        self._runner = runner
 
     def __call__(self, candidates: Sequence[Candidate]) -> Iterator[tuple[Evaluation, float, str]]:
         for candidate in candidates:
             began = time.perf_counter()
-            found = self._bench.verdict(candidate.x)
+            found = self._runner.verdict(candidate.x)
             yield Evaluation(candidate, found), time.perf_counter() - began, socket.gethostname()
 
     def close(self) -> None:

@@ -9,7 +9,7 @@ from collections import Counter, deque
 from collections.abc import Iterator, Sequence
 from multiprocessing.connection import wait
 
-from gaitsim.cluster.evaluate import bench_of
+from gaitsim.cluster.evaluate import runner_of
 from gaitsim.cluster.patience import Found, Pace, Patience, killed, too_late
 from gaitsim.cluster.process import START_METHOD, Lifeline, Worker, started
 from gaitsim.optimization.evaluation import Candidate, Evaluation
@@ -31,7 +31,7 @@ class Local:
         self._pace = Pace(patience or Patience())
         self._host = socket.gethostname()
         if method == "fork":
-            bench_of(bundle, mode)  # copied with this process
+            runner_of(bundle, mode)  # copied with this process
             gc.freeze()  # a collection in a copy would touch, and so copy, every page
         self._lifeline = Lifeline(method)
         self._workers: list[Worker] = []

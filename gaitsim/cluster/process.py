@@ -15,7 +15,7 @@ from multiprocessing import get_context
 from multiprocessing.connection import Connection
 from typing import Any
 
-from gaitsim.cluster.evaluate import bench_of
+from gaitsim.cluster.evaluate import runner_of
 from gaitsim.cluster.unreachable import ClusterError
 from gaitsim.optimization.evaluation import Candidate, Verdict
 from gaitsim.results.bundle import Bundle
@@ -116,7 +116,7 @@ def _serve(
 
 def _verdict(bundle: Bundle, mode: Mode, candidate: Candidate) -> Verdict | str:
     try:
-        return bench_of(bundle, mode).verdict(candidate.x)
+        return runner_of(bundle, mode).verdict(candidate.x)
     except Exception:
         return traceback.format_exc()
 

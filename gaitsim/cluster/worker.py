@@ -11,13 +11,13 @@ from functools import partial
 
 from distributed import Worker, WorkerPlugin, get_worker
 
-from gaitsim.cluster.evaluate import bench_of, forget
+from gaitsim.cluster.evaluate import forget, runner_of
 from gaitsim.cluster.fingerprint import differences, fingerprint
 from gaitsim.errors import GaitsimError
 from gaitsim.optimization.evaluation import Candidate, Evaluation
 from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.run import Mode
-from gaitsim.simulation.waiting import in_thread
+from gaitsim.simulation.threads import in_thread
 
 _bundles: dict[str, Bundle] = {}
 
@@ -76,12 +76,12 @@ def evaluate_chunk(chunk: Chunk) -> Done:
 
 def _evaluated(chunk: Chunk) -> tuple[list[tuple[Evaluation, float]], bool]:
     bundle = _bundles[chunk.digest]
-    bench = bench_of(bundle, chunk.mode)
+    runner = runner_of(bundle, chunk.mode)
     found: list[tuple[Evaluation, float]] = []
     for candidate in chunk.candidates:
         began = time.perf_counter()
         try:
-            verdict = in_thread(partial(bench.verdict, candidate.x), chunk.limit)
+            verdict = in_thread(partial(runner.verdict, candidate.x), chunk.limit)
         except TimeoutError:
             forget(bundle, chunk.mode)
             return found, True

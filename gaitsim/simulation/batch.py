@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from gaitsim.model import Model
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode, Simulator
-from gaitsim.simulation.waiting import cores, in_threads
+from gaitsim.simulation.threads import cores, in_threads
 
 
 def run_all(

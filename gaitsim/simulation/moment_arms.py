@@ -13,8 +13,8 @@ import numpy as np
 from gaitsim.compiler.mjcf import tie_place
 from gaitsim.compiler.program import Floats, Program
 from gaitsim.model import Model, Part
-from gaitsim.simulation.body import Body
 from gaitsim.simulation.crossings import crossings
+from gaitsim.simulation.physics import Physics
 
 _FREE = np.radians(150.0)  # to either side, of a hinge that declares no limits
 _POINTS = 601
@@ -68,11 +68,11 @@ def moment_arms(model: Model) -> list[MomentArm]:
 
     Errors: InvalidSpec, SimulationFailed.
     """
-    body = Body(Program(model))
-    body.pose(model.values())
-    hinges = {hinge.joint: hinge for hinge in _hinges(model, body)}
-    found = [arm for hinge in hinges.values() for arm in _of_points(model, body, hinge)]
-    for crossing in crossings(model, body.assembly):
+    physics = Physics(Program(model))
+    physics.pose(model.values())
+    hinges = {hinge.joint: hinge for hinge in _hinges(model, physics)}
+    found = [arm for hinge in hinges.values() for arm in _of_points(model, physics, hinge)]
+    for crossing in crossings(model, physics.assembly):
         hinge = hinges[crossing.joint]
         angles = hinge.angles[::_SMOOTH]
         arms, lengths = crossing.arms(angles)
@@ -100,9 +100,9 @@ class _Hinge:
         return MomentArm(muscle, path, self.part, points, self.limited, self.backwards, now, angles, arms, lengths)
 
 
-def _hinges(model: Model, body: Body) -> Iterator[_Hinge]:
-    mechanics, data = body.model, body.data
-    for i, tie in body.assembly.reads:
+def _hinges(model: Model, physics: Physics) -> Iterator[_Hinge]:
+    mechanics, data = physics.model, physics.data
+    for i, tie in physics.assembly.reads:
         if tie.field != "qpos" or tie.element is None:
             continue
         joint = mechanics.joint(tie.element.name)
@@ -117,12 +117,12 @@ def _hinges(model: Model, body: Body) -> Iterator[_Hinge]:
         yield _Hinge(model.parts[i], tie.element.name, place, limited, backwards, float(data.qpos[place]), angles)
 
 
-def _of_points(model: Model, body: Body, hinge: _Hinge) -> Iterator[MomentArm]:
+def _of_points(model: Model, physics: Physics, hinge: _Hinge) -> Iterator[MomentArm]:
     """The arms of paths through points over one hinge."""
-    mechanics, data, pose = body.model, body.data, body.data.qpos.copy()
+    mechanics, data, pose = physics.model, physics.data, physics.data.qpos.copy()
     angles = np.append(hinge.angles, hinge.now)
     before, at, after = (_lengths(mechanics, data, pose, hinge.place, angles + turn) for turn in (-_TURN, 0.0, _TURN))
-    for i, tie in body.assembly.reads:
+    for i, tie in physics.assembly.reads:
         if tie.field != "ten_length" or model.parts[i].type.kind != "path":
             continue
         tendon, path = tie_place(mechanics, tie), model.parts[i]

@@ -17,7 +17,7 @@ from gaitsim.compiler.plan import plan_of
 from gaitsim.compiler.program import Program
 from gaitsim.errors import SimulationFailed
 from gaitsim.model import Model
-from gaitsim.simulation.rapid import Rapid
+from gaitsim.simulation.native_loop import NativeLoop
 
 PAIRS = 5
 LOOP = "delays, checks, loop"
@@ -74,7 +74,7 @@ def profile(model: Model) -> Profile:
 
     Errors: SimulationFailed if the run fails; InvalidSpec, InvalidComponent.
     """
-    plain, timed = Rapid(Program(model)), Rapid(Program(model), timed=True)
+    plain, timed = NativeLoop(Program(model)), NativeLoop(Program(model), timed=True)
     for each in (plain, timed):
         each.prepare()
     watch = _Watch(timed, model)
@@ -101,9 +101,9 @@ class _Timed:
 class _Watch:
     """Runs a model with the stopwatch in its native code."""
 
-    def __init__(self, loop: Rapid, model: Model) -> None:
+    def __init__(self, loop: NativeLoop, model: Model) -> None:
         self.loop, self.model, self.steps = loop, model, 0
-        plan, code = plan_of(loop.program, loop.body.assembly)[0], loop.code
+        plan, code = plan_of(loop.program, loop.physics.assembly)[0], loop.code
         self.calls = [sum(call.always for call in plan.calls if call.piece == i) for i in range(len(plan.pieces))]
         for i in plan.updates:
             self.calls[i] += 1
@@ -132,7 +132,7 @@ class _Watch:
             Cost(part.address, part.type.reference, calls, float(seconds))
             for part, calls, seconds in zip(self.model.parts, self.calls, corrected, strict=True)
         ]
-        timers = self.loop.body.data.timer
+        timers = self.loop.physics.data.timer
         stages = [
             Cost(name, "MuJoCo", 1, float(timers[int(getattr(mujoco.mjtTimer, f"mjTIMER_{word}"))].duration) * tick)
             for name, word in _STAGES.items()
@@ -145,7 +145,7 @@ class _Watch:
         return (*found, *stages, Cost(LOOP, "", 1, float(rest)))
 
 
-def _step(loop: Rapid, model: Model) -> float:
+def _step(loop: NativeLoop, model: Model) -> float:
     """Wall time of a step: of a whole run, less what it takes to pose and start the model."""
     began = time.perf_counter()
     _run(loop, model, 1)
@@ -155,7 +155,7 @@ def _step(loop: Rapid, model: Model) -> float:
     return max(ended - started - (started - began), 1e-9) / steps
 
 
-def _run(loop: Rapid, model: Model, most: int | None = None) -> int:
+def _run(loop: NativeLoop, model: Model, most: int | None = None) -> int:
     """One run, whole unless there is a most; its steps."""
     steps = most or max(1, round(model.simulate.duration / model.simulate.step))
     ending = loop.run(model.values(), steps, recorded=False)

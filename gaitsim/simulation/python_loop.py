@@ -18,9 +18,9 @@ import numpy as np
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES, tie_place
 from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
 from gaitsim.components.load import function_of
-from gaitsim.simulation.body import Body
-from gaitsim.simulation.ending import Ending
 from gaitsim.simulation.failure import of_exception, of_values
+from gaitsim.simulation.loop_result import LoopResult
+from gaitsim.simulation.physics import Physics
 from gaitsim.simulation.tables import Tables
 from gaitsim.simulation.view import View, views
 
@@ -30,27 +30,28 @@ class Failed(Exception):
 
 
 @dataclass
-class Normal:
+class PythonLoop:
     """A program in plain Python."""
 
     program: Program
-    body: Body = field(init=False)
+    physics: Physics = field(init=False)
 
     def __post_init__(self) -> None:
-        self.body = Body(self.program)
+        self.physics = Physics(self.program)
 
     def prepare(self) -> None:
         """Check what only the posed model can tell.
 
         Errors: InvalidSpec.
         """
-        self.body.check_initial()
+        self.physics.check_initial()
 
-    def run(self, values: Sequence[float], steps: int, recorded: bool) -> Ending:
+    def run(self, values: Sequence[float], steps: int, recorded: bool) -> LoopResult:
         """Simulate one candidate's numbers."""
-        self.body.pose(values)
-        tables = Tables.of(self.program, values, self.body.initial_states(values), len(self.body.assembly.applies))
-        checked = Checked(self.program, self.body, tables)
+        self.physics.pose(values)
+        states, applied = self.physics.initial_states(values), len(self.physics.assembly.applies)
+        tables = Tables.of(self.program, values, states, applied)
+        checked = Checked(self.program, self.physics, tables)
         record: list[Floats] = []
         done, failure = 0, None
         stopper: int | None = None
@@ -64,7 +65,7 @@ class Normal:
                 if stopper is not None:
                     break
                 checked.update(done)
-                failure = self.body.divergence(done)
+                failure = self.physics.divergence(done)
                 if failure:
                     break
                 done += 1
@@ -73,7 +74,7 @@ class Normal:
         # As in native code: the step in which a run fails is not part of its record.
         record = record[: done + (stopper is not None)]
         rows = np.array(record).reshape(-1, len(self.program.signals)) if recorded else None
-        return Ending(done, stopper, failure, tables.p, tables.x, rows)
+        return LoopResult(done, stopper, failure, tables.p, tables.x, rows)
 
     @property
     def _signals(self) -> Integers:
@@ -83,8 +84,8 @@ class Normal:
 class Checked:
     """The steps of one run on its tables, each call of a component checked."""
 
-    def __init__(self, program: Program, body: Body, tables: Tables) -> None:
-        self.program, self.body, self.tables = program, body, tables
+    def __init__(self, program: Program, physics: Physics, tables: Tables) -> None:
+        self.program, self.physics, self.tables = program, physics, tables
         self.dt = program.model.simulate.step
         everyone = range(len(program.model.parts))
         self.views = [views(program, i, tables.p, tables.u, tables.x, tables.y) for i in everyone]
@@ -118,7 +119,7 @@ class Checked:
 
         Errors: Failed.
         """
-        mujoco.mj_step1(self.body.model, self.body.data)
+        mujoco.mj_step1(self.physics.model, self.physics.data)
         self._read()
         self._outputs(step)
         self._apply(step)
@@ -195,18 +196,18 @@ class Checked:
         return (1 - rest) * newer + rest * older
 
     def _read(self) -> None:
-        for part, tie in self.body.assembly.reads:
-            value = self.body.array(tie.field)[tie_place(self.body.model, tie)]
+        for part, tie in self.physics.assembly.reads:
+            value = self.physics.array(tie.field)[tie_place(self.physics.model, tie)]
             self.tables.y[self.program.outputs.place(part, tie.port)] = value
 
     def _apply(self, step: int) -> None:
-        for part in self.body.appliers:
+        for part in self.physics.appliers:
             self._gather(part, step)
-        for k, (part, tie) in enumerate(self.body.assembly.applies):
+        for k, (part, tie) in enumerate(self.physics.assembly.applies):
             value = tie.sign * getattr(self._sender(part, tie.port), tie.port)
-            if self.body.assembly.runge_kutta:
+            if self.physics.assembly.runge_kutta:
                 value = self._carried_on(k, value)
-            self.body.array(tie.field)[tie_place(self.body.model, tie)] = value
+            self.physics.array(tie.field)[tie_place(self.physics.model, tie)] = value
 
     def _carried_on(self, number: int, value: Any) -> Any:
         """A value that is written, carried on to the middle of the step; before the first step it was the same."""
@@ -216,8 +217,8 @@ class Checked:
 
     def _advance(self) -> None:
         """The second half of MuJoCo's step."""
-        model, data = self.body.model, self.body.data
-        if self.body.assembly.runge_kutta:
+        model, data = self.physics.model, self.physics.data
+        if self.physics.assembly.runge_kutta:
             mujoco.mj_forwardSkip(model, data, AFTER_VELOCITIES, 0)
             mujoco.mj_RungeKutta(model, data, 4)
         else:

@@ -16,10 +16,10 @@ from gaitsim.compiler.program import Floats, Program, measures
 from gaitsim.components.load import function_of
 from gaitsim.errors import InvalidComponent, InvalidSpec, SimulationFailed
 from gaitsim.model import TERMS, Model, Objective, Part, metric_names, recorded_signals
-from gaitsim.simulation.ending import Ending
 from gaitsim.simulation.failure import raised_in
+from gaitsim.simulation.loop_result import LoopResult
 from gaitsim.simulation.outcome import Outcome, Trajectory
-from gaitsim.simulation.python_loop import Normal
+from gaitsim.simulation.python_loop import PythonLoop
 from gaitsim.simulation.view import views
 from gaitsim.units import parse_unit
 
@@ -57,10 +57,10 @@ class Simulator:
 
     def _prepared(self) -> Any:
         if self.mode == "normal":
-            return Normal(self.program)
-        from gaitsim.simulation.rapid import Rapid
+            return PythonLoop(self.program)
+        from gaitsim.simulation.native_loop import NativeLoop
 
-        return Rapid(self.program)
+        return NativeLoop(self.program)
 
     @property
     def xml(self) -> str:
@@ -75,13 +75,13 @@ class Simulator:
         try:
             values = self.model.values(candidate)
             with np.errstate(all="ignore" if self.mode == "rapid" else "warn"):
-                ending: Ending = self._loop.run(values, steps, recorded)
+                ending: LoopResult = self._loop.run(values, steps, recorded)
         except (SimulationFailed, InvalidSpec, InvalidComponent) as error:
             # The spec's own numbers were checked: here only a candidate makes an invalid model.
             wall = time.perf_counter() - began
             return Outcome("failed", str(error), 0, simulate.step, {}, None, wall)
         if not ending.failure:
-            ending = replace(ending, failure=self._loop.body.runaway(ending.steps))
+            ending = replace(ending, failure=self._loop.physics.runaway(ending.steps))
         metrics, score, failure = self._judged(ending, values)
         status, reason = "completed", ""
         if failure:
@@ -95,12 +95,12 @@ class Simulator:
     def first_instant(self) -> dict[str, float]:
         """Every recorded signal at the start of the model's own numbers, in SI; empty if it fails at once."""
         with np.errstate(all="ignore"):
-            ending: Ending = self._loop.run(self.model.values(), 1, True)
+            ending: LoopResult = self._loop.run(self.model.values(), 1, True)
         if ending.record is None or not len(ending.record):
             return {}
         return dict(zip(self.program.signals, map(float, ending.record[0]), strict=True))
 
-    def _judged(self, ending: Ending, values: Sequence[float]) -> tuple[dict[str, float], float | None, str | None]:
+    def _judged(self, ending: LoopResult, values: Sequence[float]) -> tuple[dict[str, float], float | None, str | None]:
         """Metrics and score, or why there are none."""
         if ending.failure:
             return {}, None, ending.failure
@@ -113,7 +113,7 @@ class Simulator:
             assert isinstance(cause, Exception)
             return {}, None, raised_in(part, function, "the end", cause)
 
-    def _metrics(self, ending: Ending) -> dict[str, float]:
+    def _metrics(self, ending: LoopResult) -> dict[str, float]:
         found: dict[str, float] = {}
         nothing = np.zeros(0)
         for i, part in measures(self.model):

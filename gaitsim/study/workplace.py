@@ -52,10 +52,10 @@ class Workplace:
 
             return Parallel(remote_client(self.scheduler, self.scheduler_file, say), bundle, mode)
         if self.workers == 0:
-            from gaitsim.cluster.evaluate import Serial, bench_of
+            from gaitsim.cluster.evaluate import Serial, runner_of
 
-            return Serial(bench_of(bundle, mode))
+            return Serial(runner_of(bundle, mode))
         from gaitsim.cluster.local import Local
-        from gaitsim.simulation.waiting import cores
+        from gaitsim.simulation.threads import cores
 
         return Local(bundle, mode, self.workers or cores())

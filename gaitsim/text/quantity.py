@@ -42,8 +42,8 @@ def example(unit: str) -> str:
 
 def measured(unit: Unit) -> str:
     """What a unit measures, in words; one without a word for it speaks for itself."""
-    nameless = unit.article == f"a quantity of {unit.dimension.formula}"
-    return f"a value in {unit.text}" if nameless else unit.article
+    nameless = unit.noun_phrase == f"a quantity of {unit.dimension.formula}"
+    return f"a value in {unit.text}" if nameless else unit.noun_phrase
 
 
 def needed(unit: str) -> str:
@@ -161,8 +161,8 @@ def mismatch(quantity: Quantity, declared: Unit) -> str:
         return f"{given.text} is a unit of angle; {needed(declared.text)} (in radians: {quantity.value:.4g})."
     if given.dimension.plain:
         return f"{given.text} makes a plain number; {needed(declared.text)}."
-    named = measured(given) == given.article
-    words = f"a unit of {given.article.removeprefix('a ').removeprefix('an ')}" if named else "another unit"
+    named = measured(given) == given.noun_phrase
+    words = f"a unit of {given.noun_phrase.removeprefix('a ').removeprefix('an ')}" if named else "another unit"
     return f"{given.text} is {words}; {needed(declared.text)}."
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from gaitsim.analysis.signals.pattern import NoSuchSignal, matching, only
+from gaitsim.analysis.signals.pattern import NoSuchSignal, matching
 from gaitsim.model import Model, recorded_signals
 
 from .swinging import model
@@ -40,7 +40,7 @@ def test_addresses_and_patterns(swinging: Model) -> None:
     assert addresses(swinging, "pivot.*") == ["pivot.angle", "pivot.velocity"]
     assert addresses(swinging, "*.a*") == ["pivot.angle", "brake.accumulated"]
     assert addresses(swinging, "?rake.[t]*") == ["brake.torque"]
-    assert only(swinging, "*.torque").address == "brake.torque"
+    assert addresses(swinging, "*.torque") == ["brake.torque"]
 
 
 def test_inputs_are_signals_where_they_are_named(swinging: Model) -> None:
@@ -69,9 +69,3 @@ def test_what_is_no_signal(text: str, swinging: Model) -> None:
         matching(swinging, text)
     assert str(error.value) == f"{text}: {MISSING[text]}"
     assert error.value.exit_code == 2
-
-
-def test_one_signal_is_asked_for_and_several_match(swinging: Model) -> None:
-    with pytest.raises(NoSuchSignal) as error:
-        only(swinging, "pivot.*")
-    assert str(error.value) == "pivot.*: this must be one signal, and it matches pivot.angle, pivot.velocity."

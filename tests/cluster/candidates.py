@@ -8,7 +8,7 @@ from pathlib import Path
 import psutil
 from optimization.searches import Study
 
-from gaitsim.cluster.evaluate import Serial, bench_of
+from gaitsim.cluster.evaluate import Serial, runner_of
 from gaitsim.optimization.evaluation import Candidate, Evaluation
 from gaitsim.optimization.search import Evaluator
 from gaitsim.results.bundle import Bundle
@@ -36,7 +36,7 @@ def evaluated(evaluate: Evaluator, candidates: list[Candidate]) -> dict[Candidat
 
 def expected(model: Bundle, candidates: list[Candidate]) -> dict[Candidate, Evaluation]:
     """As this process evaluates them."""
-    return evaluated(Serial(bench_of(model, "rapid")), candidates)
+    return evaluated(Serial(runner_of(model, "rapid")), candidates)
 
 
 def workers() -> list[psutil.Process]:

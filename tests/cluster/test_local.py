@@ -140,12 +140,12 @@ def test_no_socket_of_a_network_is_opened(models: dict[str, Bundle]) -> None:
 def test_a_bug_in_a_worker_is_told_with_its_traceback(
     models: dict[str, Bundle], monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    from gaitsim.cluster.evaluate import Bench
+    from gaitsim.cluster.evaluate import EpisodeRunner
 
-    def broken(self: Bench, x: object) -> None:
+    def broken(self: EpisodeRunner, x: object) -> None:
         raise AssertionError("not thought of")
 
-    monkeypatch.setattr(Bench, "verdict", broken)
+    monkeypatch.setattr(EpisodeRunner, "verdict", broken)
     with local(models["none"]) as evaluate, pytest.raises(RuntimeError) as told:
         evaluated(evaluate, CANDIDATES)
     assert str(told.value).startswith("in a worker:\nTraceback")

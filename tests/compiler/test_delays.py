@@ -88,13 +88,13 @@ def test_update_reads_the_same_past_as_output(mode: str) -> None:
 def test_a_tuned_delay_changes_without_compiling_anything(mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
     simulator = Simulator(written(SPEC.replace("delay: 7 ms", TUNED)), mode)
     simulator.run()
-    assembly, loads = simulator._loop.body.assembly, []
+    assembly, loads = simulator._loop.physics.assembly, []
     monkeypatch.setattr(machine, "code", loads.append)
     for steps in (7, 1, 60, 12.5, 1):
         sent, arrived = signals(simulator.run([steps * 1e-3], recorded=True))
         np.testing.assert_allclose(arrived, delayed(sent, steps, sent[0]), rtol=0, atol=1e-12)
     assert loads == []
-    assert simulator._loop.body.assembly is assembly
+    assert simulator._loop.physics.assembly is assembly
 
 
 @modes

@@ -32,7 +32,7 @@ simulate: {duration: 10 ms, step: 1 ms}
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_the_exported_file_is_the_same_mechanics(path) -> None:
     simulator = Simulator(model(path))
-    ours = simulator._loop.body.model
+    ours = simulator._loop.physics.model
     stock = mujoco.MjModel.from_xml_string(simulator.xml)
     for name in ("nq", "nv", "nu", "nbody", "ntendon"):
         assert getattr(stock, name) == getattr(ours, name), name
@@ -55,7 +55,7 @@ def test_the_exported_file_is_the_same_mechanics(path) -> None:
 
 
 def test_bodies_by_hand() -> None:
-    made = Simulator(written(BODIES))._loop.body.model
+    made = Simulator(written(BODIES))._loop.physics.model
     assert list(made.body_mass) == [0, 2, 1]
     upper = made.body("upper")
     transverse, along = 2 * 1 / 12, 0.5 * 2 * 0.04**2
@@ -69,7 +69,7 @@ def test_bodies_by_hand() -> None:
 
 
 def test_the_hopper_s_leg_spans_from_the_ground_to_the_hip() -> None:
-    body = Simulator(model(HOPPER))._loop.body
+    body = Simulator(model(HOPPER))._loop.physics
     assert list(body.model.body_mass) == [0, 80]
     assert body.data.ten_length[0] == pytest.approx(1.04)
     assert body.model.ntendon == 1
@@ -124,7 +124,7 @@ def test_bodies_form_a_tree(old: str, new: str, place: str, message: str) -> Non
 
 def test_what_is_only_to_be_looked_at_is_exported_and_not_simulated() -> None:
     simulator = Simulator(written(BODIES))
-    assert simulator._loop.body.model.ngeom == 0
+    assert simulator._loop.physics.model.ngeom == 0
     assert mujoco.MjModel.from_xml_string(simulator.xml).ngeom == 2
 
 
@@ -139,7 +139,7 @@ def test_what_is_only_to_be_looked_at_is_exported_and_not_simulated() -> None:
     ids=["bodies", "contact", "equality", "explicit contact"],
 )
 def test_the_stage_of_constraints_is_passed_only_where_there_is_none(more: str, used: bool) -> None:
-    made = Simulator(written(BODIES.replace("simulate:", f"{more}simulate:")))._loop.body.model
+    made = Simulator(written(BODIES.replace("simulate:", f"{more}simulate:")))._loop.physics.model
     off = made.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
     assert bool(off) != used
 

@@ -22,7 +22,7 @@ def model_of(text: str, folder: Path, **words: Any) -> Model:
 
 def body_of(simulator: Simulator) -> Any:
     """MuJoCo's model and data, posed."""
-    return simulator._loop.body
+    return simulator._loop.physics
 
 
 def played(text: str, folder: Path, **words: Any) -> Any:

@@ -47,7 +47,7 @@ def made(text: str, folder: Path) -> Model:
 
 
 def body_of(simulator: Simulator) -> Any:
-    return simulator._loop.body
+    return simulator._loop.physics
 
 
 # Winter's table at 80 kg and 1.8 m: mass, length, center of mass from the proximal end, gyration.

@@ -84,7 +84,7 @@ def facts(outcome: Outcome) -> tuple[object, ...]:
 
 
 def test_closing_is_quick_and_always_the_same() -> None:
-    body = simulator(LEG)._loop.body
+    body = simulator(LEG)._loop.physics
     values = body.program.model.values()
     body.pose(values)
     first = body.data.qpos.copy()
@@ -96,7 +96,7 @@ def test_closing_is_quick_and_always_the_same() -> None:
 
 
 def test_a_model_without_loops_is_left_as_it_is() -> None:
-    body = simulator(ROOT / "specs" / "pendulum_pid.yaml")._loop.body
+    body = simulator(ROOT / "specs" / "pendulum_pid.yaml")._loop.physics
     body.pose(body.program.model.values())
     assert body.data.qpos == pytest.approx([np.radians(170)], abs=0)
 

@@ -9,8 +9,8 @@ from gaitsim.compiler.program import Program
 from gaitsim.components.find import Library, shipped_folder
 from gaitsim.errors import SimulationFailed
 from gaitsim.model import Model
+from gaitsim.simulation.native_loop import NativeLoop
 from gaitsim.simulation.profile import LOOP, Profile, profile
-from gaitsim.simulation.rapid import Rapid
 from gaitsim.spec.resolve import resolve
 from gaitsim.text.document import parse
 
@@ -86,7 +86,7 @@ def test_costs_add_up_to_the_step(found: Profile) -> None:
 
 
 def test_the_stopwatch_changes_no_number(made: Model) -> None:
-    plain, timed = (Rapid(Program(made), timed=timed) for timed in (False, True))
+    plain, timed = (NativeLoop(Program(made), timed=timed) for timed in (False, True))
     for each in (plain, timed):
         each.prepare()
     one, other = (each.run(made.values(), 500, recorded=True) for each in (plain, timed))

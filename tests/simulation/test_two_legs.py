@@ -31,7 +31,7 @@ def test_three_composites_deep() -> None:
 
 
 def test_left_is_right_mirrored_in_y() -> None:
-    mechanics = Simulator(model(SPEC))._loop.body.model
+    mechanics = Simulator(model(SPEC))._loop.physics.model
     for name in MUSCLES[:2]:
         for i in (0, 1):
             left = mechanics.site(f"{name}.path.points.{i}").pos
@@ -97,7 +97,7 @@ def test_one_side_can_differ(mode: str) -> None:
     assert free["leg_r.muscles.gain"] == ("leg_r.muscles.gain",)
     assert free["leg.muscles.delay"] == ("leg_l.muscles.delay", "leg_r.muscles.delay")
     simulator = Simulator(made, mode)
-    mechanics = simulator._loop.body.model
+    mechanics = simulator._loop.physics.model
     assert mechanics.body("leg_l.shank.rod").mass[0] == pytest.approx(4.8)
     assert mechanics.body("leg_r.shank.rod").mass[0] == pytest.approx(2.4)
     outcome = simulator.run(recorded=True)

@@ -57,17 +57,6 @@ def _inputs(model: Model) -> tuple[Signal, ...]:
     )
 
 
-def only(model: Model, text: str) -> Signal:
-    """The one signal that a text names.
-
-    Errors: NoSuchSignal, also for a pattern of several.
-    """
-    found = matching(model, text)
-    if len(found) > 1:
-        raise NoSuchSignal(f"{text}: this must be one signal, and it matches {_listed([s.address for s in found])}.")
-    return found[0]
-
-
 def _missing(model: Model, text: str, known: Sequence[str]) -> str:
     """Why an address is no signal, and what to write."""
     inside = [address for address in known if address.startswith(f"{text}.")]

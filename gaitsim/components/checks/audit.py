@@ -344,7 +344,7 @@ class _Search:
     def expect(self, field: _Field, value: Any) -> None:
         given = self.dimension(value)
         if given is not None and given is not field.dimension:
-            declared = f"{field.name} is declared in {field.unit.text} ({field.unit.article})"
+            declared = f"{field.name} is declared in {field.unit.text} ({field.unit.noun_phrase})"
             self.fault(f"{declared}; this gives {given} ({given.si}).")
 
     def fault(self, message: str) -> None:

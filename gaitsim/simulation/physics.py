@@ -14,14 +14,14 @@ from gaitsim.compiler.mjcf import Assembly, assemble, tie_place
 from gaitsim.compiler.program import Program
 from gaitsim.errors import Fault, InvalidSpec
 from gaitsim.simulation.failure import of_mechanics, of_runaway
+from gaitsim.simulation.initial_height import stand
 from gaitsim.simulation.projection import close_loops
-from gaitsim.simulation.standing import stand
 
 _FARTHEST = 1.0  # rad or m in one step
 
 
 @dataclass
-class Body:
+class Physics:
     """The mechanics of one program, posed anew for each candidate."""
 
     program: Program

@@ -15,12 +15,12 @@ from gaitsim.compiler.mjcf import Assembly, tie_place
 from gaitsim.compiler.plan import plan_of
 from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
 from gaitsim.compiler.workshop import compiled
-from gaitsim.simulation.body import Body
-from gaitsim.simulation.ending import Ending
 from gaitsim.simulation.failure import of_nothing_found
+from gaitsim.simulation.loop_result import LoopResult
+from gaitsim.simulation.physics import Physics
 from gaitsim.simulation.python_loop import Checked, Failed
 from gaitsim.simulation.tables import Tables
-from gaitsim.simulation.waiting import interruptible
+from gaitsim.simulation.threads import interruptible
 
 _C_TYPES: Mapping[str, Any] = {
     "integer": ctypes.c_int64,
@@ -59,24 +59,24 @@ class _Reached:
 
 
 @dataclass
-class Rapid:
+class NativeLoop:
     """A program in native code; timed: with a stopwatch in it, see `simulation/profile.py`."""
 
     program: Program
     timed: bool = False
-    body: Body = field(init=False)
+    physics: Physics = field(init=False)
     _natives: dict[Any, _Native] = field(default_factory=dict)
     _tied: tuple[Assembly, _Native, Integers] | None = None
 
     def __post_init__(self) -> None:
-        self.body = Body(self.program)
+        self.physics = Physics(self.program)
 
     def prepare(self) -> None:
         """Compile or load all native code, and check what only the posed model can tell.
 
         Errors: InvalidComponent, InvalidSpec.
         """
-        self.body.check_initial()
+        self.physics.check_initial()
         self._bound()
 
     @property
@@ -84,7 +84,7 @@ class Rapid:
         """The native code for the present mechanics."""
         return self._bound()[0].code
 
-    def run(self, values: Sequence[float], steps: int, recorded: bool) -> Ending:
+    def run(self, values: Sequence[float], steps: int, recorded: bool) -> LoopResult:
         """Simulate one candidate's numbers."""
         record = np.zeros((steps, len(self.program.signals))) if recorded else None
         reached = self._reach(values, steps, record)
@@ -92,16 +92,16 @@ class Rapid:
         if reached.status == native.SUSPECT:
             failure = self._culprit(values, reached)
         elif reached.status == native.DIVERGED:
-            failure = self.body.divergence(reached.step)
+            failure = self.physics.divergence(reached.step)
         elif reached.status >= native.STOPPED:
             stopped_by = self.program.stops[reached.status - native.STOPPED]
         rows = None if record is None else record[: reached.step + (stopped_by is not None)]
-        return Ending(reached.step, stopped_by, failure, reached.tables.p, reached.tables.x, rows)
+        return LoopResult(reached.step, stopped_by, failure, reached.tables.p, reached.tables.x, rows)
 
     def _reach(self, values: Sequence[float], steps: int, record: Floats | None = None) -> _Reached:
         """Pose and start a candidate, and go on for a number of steps."""
-        body = self.body
-        body.pose(values)
+        physics = self.physics
+        physics.pose(values)
         tables = self._tables(values)
         code, addresses = self._bound()
         step = np.zeros(1, dtype=np.int64)
@@ -119,15 +119,15 @@ class Rapid:
             "values": tables.values,
             "ties": addresses,
             "written": tables.written,
-            "qpos": body.data.qpos,
-            "qvel": body.data.qvel,
+            "qpos": physics.data.qpos,
+            "qvel": physics.data.qvel,
             "reached": step,
         }
         given = {word: array.ctypes.data_as(ctypes.c_void_p) for word, array in held.items()}
         given["record"] = None if record is None else record.ctypes.data_as(ctypes.c_void_p)
         numbers = {"mask": len(tables.past) - 1, "count": len(tables.places), "first": 0, "steps": steps}
         given |= numbers | {"dt": self.program.model.simulate.step, "rounds": STARTING_ROUNDS}
-        model, data = body.model, body.data
+        model, data = physics.model, physics.data
 
         def compute() -> tuple[bool, int]:
             if code.start(given):
@@ -137,7 +137,7 @@ class Rapid:
         try:
             started, status = interruptible(compute)
         except KeyboardInterrupt:
-            self.body = Body(self.program)  # the old one is still computed in
+            self.physics = Physics(self.program)  # the old one is still computed in
             raise
         return _Reached(started, status, int(step[0]), tables)
 
@@ -145,24 +145,24 @@ class Rapid:
         """What failed: up to it once more in native code, and then in Python, with every call checked."""
         try:
             if not noticed.started:
-                self.body.pose(values)
-                Checked(self.program, self.body, self._tables(values)).start()
+                self.physics.pose(values)
+                Checked(self.program, self.physics, self._tables(values)).start()
             else:
                 before = self._reach(values, noticed.step)
-                Checked(self.program, self.body, before.tables).step(noticed.step)
+                Checked(self.program, self.physics, before.tables).step(noticed.step)
         except Failed as error:
             return str(error)
         return of_nothing_found(self.program, noticed.step)
 
     def _tables(self, values: Sequence[float]) -> Tables:
-        return Tables.of(self.program, values, self.body.initial_states(values), len(self.body.assembly.applies))
+        return Tables.of(self.program, values, self.physics.initial_states(values), len(self.physics.assembly.applies))
 
     def _bound(self) -> tuple[_Native, Integers]:
         """Native code for the present mechanics, and the addresses in MuJoCo's data that it reads and writes.
 
         Errors: InvalidComponent.
         """
-        assembly = self.body.assembly
+        assembly = self.physics.assembly
         if self._tied is None or self._tied[0] is not assembly:
             shape = (assembly.reads, assembly.applies, assembly.model.nq, assembly.model.nv)
             if shape not in self._natives:
@@ -171,9 +171,9 @@ class Rapid:
         return self._tied[1:]
 
     def _addresses(self) -> Integers:
-        body, ties = self.body, (*self.body.assembly.reads, *self.body.assembly.applies)
-        arrays = {tie.field: body.array(tie.field) for _, tie in ties}
+        physics, ties = self.physics, (*self.physics.assembly.reads, *self.physics.assembly.applies)
+        arrays = {tie.field: physics.array(tie.field) for _, tie in ties}
         return np.array(
-            [arrays[t.field].ctypes.data + arrays[t.field].itemsize * tie_place(body.model, t) for _, t in ties],
+            [arrays[t.field].ctypes.data + arrays[t.field].itemsize * tie_place(physics.model, t) for _, t in ties],
             dtype=np.int64,
         )

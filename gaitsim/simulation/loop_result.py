@@ -8,7 +8,7 @@ from gaitsim.compiler.program import Floats
 
 
 @dataclass(frozen=True)
-class Ending:
+class LoopResult:
     """Steps done, who stopped it, why it failed; the tables of parameters and states; the record."""
 
     steps: int
