@@ -178,8 +178,8 @@ def small(words: list[str]) -> list[str]:
     """A command with its search or its scan made small."""
     match name_of(words):
         case "optimize":
-            smoke = [] if {"--smoke", "--resume"} & set(words) else ["--smoke"]
-            return words + smoke + ([] if "--workers" in words else ["--workers", "0"])
+            short = [] if {"--smoke", "--resume"} & set(words) else ["--generations", "1", "--population", "4"]
+            return words + short + ([] if "--workers" in words else ["--workers", "0"])
         case "limit":
             return [*words, "--points", "3", "--tolerance", "0.5"]
     return words
