@@ -1,7 +1,7 @@
 """One kernel per component type, in LLVM's language, kept by the digest of everything it is made from.
 
-The component's text is compiled as it is, so that line numbers hold, and a footer is appended that
-turns its functions into one. numba is needed for that only, so it is imported only then.
+The texts of the component and of the files that it imports from are compiled as they are, so that line
+numbers hold, and a footer turns the component's functions into one. numba is imported only when a kernel is made.
 """
 
 from __future__ import annotations
@@ -9,30 +9,33 @@ from __future__ import annotations
 import hashlib
 import re
 import sys
+from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
-from types import ModuleType
+from types import FunctionType, ModuleType
+from typing import Any
 
 from gaitsim.cache import keep, kept
 from gaitsim.compiler import machine
 from gaitsim.components.primitive import Primitive
+from gaitsim.components.shared import builtins_with
 from gaitsim.errors import Fault, InvalidComponent, Mark
 
 START, OUTPUT, UPDATE = 0, 1, 2
 STAGES = {"start": START, "output": OUTPUT, "update": UPDATE}
 
+_OPTIONS = {"error_model": "numpy", "boundscheck": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 _FOOTER = '''
 
 # Appended by gaitsim: the functions above as one.
 import numpy as _np
 from numba import carray as _carray, njit as _njit, types as _types
 
-_OPTIONS = {{"error_model": "numpy", "boundscheck": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}}
+_OPTIONS = {options!r}
 _P = _np.dtype({parameters!r})
 _U = _np.dtype({inputs!r})
 _X = _np.dtype({states!r})
 _Y = _np.dtype({outputs!r})
-{helpers}
 {functions}
 _POINTERS = (_types.voidptr,) * 4
 
@@ -88,7 +91,7 @@ class Kernel:
 @cache
 def kernel_of(component: Primitive) -> Kernel:
     """The kernel of a component, which nothing compiles before its code is asked for."""
-    text = component.source + _footer(component)
+    text = component.code + _footer(component)
     digest = hashlib.sha256(f"{text}|{machine.environment()}".encode()).hexdigest()
     return Kernel(component, f"kernel.{digest[:32]}")
 
@@ -132,7 +135,13 @@ def _executed(kernel: Kernel) -> ModuleType:
     module = ModuleType(kernel.name.replace(".", "_"))
     sys.modules[module.__name__] = module
     try:
-        exec(compile(component.source + _footer(component), component.shown, "exec"), module.__dict__)
+        spaces: dict[str, dict[str, Any]] = {file.name: {"__name__": module.__name__} for file in component.shared}
+        for file in component.shared:
+            exec(compile(file.source, file.shown, "exec"), spaces[file.name])
+        module.__dict__["__builtins__"] = builtins_with(spaces)
+        exec(compile(component.source, component.shown, "exec"), module.__dict__)
+        _make_native([*spaces.values(), module.__dict__])
+        exec(compile(_footer(component), kernel.name, "exec"), module.__dict__)
     finally:
         del sys.modules[module.__name__]
     return module
@@ -143,16 +152,27 @@ def _footer(component: Primitive) -> str:
     cls = component.cls.__name__
     functions = [f'_{n} = _njit({cls}.__dict__["{n}"].__func__, **_OPTIONS)' for n in used]
     calls = [f"    if stage == {STAGES[name]}:\n        _{name}({_ARGUMENTS[name]})" for name in used]
-    helpers = re.findall(r"^def (\w+)", component.source, re.MULTILINE)
     return _FOOTER.format(
         parameters=_layout(dict.fromkeys(component.parameters) | {n: s.size for n, s in component.series.items()}),
         inputs=_layout(dict.fromkeys(component.inputs)),
         states=_layout({name: state.size for name, state in component.states.items()}),
         outputs=_layout(dict.fromkeys(component.outputs)),
-        helpers="\n".join(f"{name} = _njit({name}, **_OPTIONS)" for name in helpers),
+        options=_OPTIONS,
         functions="\n".join(functions),
         calls="\n".join(calls),
     )
+
+
+def _make_native(spaces: Iterable[dict[str, Any]]) -> None:
+    """Put native functions in the place of all functions of some namespaces, whose constants are computed by then."""
+    from numba import njit
+
+    made: dict[FunctionType, Any] = {}
+    for space in spaces:
+        for name, value in list(space.items()):
+            if isinstance(value, FunctionType):
+                made[value] = made.get(value) or njit(value, **_OPTIONS)
+                space[name] = made[value]
 
 
 def _layout(fields: dict[str, int | None]) -> list[tuple[str, str] | tuple[str, str, tuple[int]]]:
@@ -166,13 +186,15 @@ def _layout(fields: dict[str, int | None]) -> list[tuple[str, str] | tuple[str, 
 def _explained(error: Exception, component: Primitive) -> Fault:
     """The first sentence of the compiler, and the line it is about."""
     text = re.sub(r"\x1b\[[0-9;]*m", "", str(error))
-    lines = [int(n) for n in re.findall(r'File ".*?", line (\d+)', text)]
-    source = component.source.splitlines()
-    line = next((n for n in lines if n <= len(source)), 0)
+    places = [(file, int(n)) for file, n in re.findall(r'File "(.*?)", line (\d+)', text)]
+    texts = {component.shown: component.source} | {file.shown: file.source for file in component.shared}
+    own = (place for place in places if place[1] <= len(texts.get(place[0], "").splitlines()))
+    file, line = next(own, (component.shown, 0))
+    source = texts[file].splitlines()
     reasons = [row.strip() for row in text.splitlines() if row.strip()]
     said = next((r for r in reasons if not r.startswith(("Failed in", "File", "During", "-", ">"))), "")
     shown = source[line - 1] if line else ""
     column = len(shown) - len(shown.lstrip()) + 1 if line else 0
     why = f"numba says: {said.rstrip('.:')}"
     message = f"this cannot become native code; write it with numbers, if, for and math only ({why})."
-    return Fault(message, Mark(component.shown, line, column, shown))
+    return Fault(message, Mark(file, line, column, shown))

@@ -141,10 +141,10 @@ _OPEN_LOOP = re.compile(r"\bwhile\b|\bfor\b.*\bin\b(?! range\([\d, ]+\):)")
 
 @cache
 def _may_raise(kind: Primitive) -> bool:
-    return _RAISES.search(kind.source) is not None
+    return _RAISES.search(kind.code) is not None
 
 
 @cache
 def _has_open_loop(kind: Primitive) -> bool:
     """Whether a loop goes on until something is reached, or for a number of times that is computed."""
-    return _OPEN_LOOP.search(kind.source) is not None
+    return _OPEN_LOOP.search(kind.code) is not None

@@ -21,6 +21,8 @@ from gaitsim.compiler import machine
 from gaitsim.compiler.kernel import Kernel, kernel_of
 from gaitsim.compiler.native import CLOCK, TICKS
 from gaitsim.compiler.plan import Plan
+from gaitsim.components.primitive import Primitive
+from gaitsim.components.shared import Shared
 
 # Below so many, a helper would be done importing numba after all is compiled.
 _WORTH_A_HELPER = 4
@@ -86,7 +88,7 @@ def _cores() -> int:
 def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
     """A process that compiles kernels. Errors: OSError."""
     components = [kernel.component for kernel in kernels]
-    files = [[found.reference, str(found.path), found.shown, found.source] for found in components]
+    files = [(_texts(found), [_texts(file) for file in found.shared]) for found in components]
     command = [sys.executable, "-m", "gaitsim.compiler.workshop"]
     quiet = subprocess.DEVNULL  # a mistake is told by the process that needs the kernel
     bare = os.environ | {"MUJOCO_GL": "off"}
@@ -97,12 +99,19 @@ def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
     return process
 
 
-def _compile(files: Sequence[Sequence[str]]) -> None:
+def _texts(file: Primitive | Shared) -> tuple[str, str, str, str]:
+    """A file as text: its reference or name, its path, how errors name it, its content."""
+    name = file.reference if isinstance(file, Primitive) else file.name
+    return name, str(file.path), file.shown, file.source
+
+
+def _compile(files: Sequence[tuple[Sequence[str], Sequence[Sequence[str]]]]) -> None:
     """Compile each component that no other process has compiled by then."""
     from gaitsim.components.load import load_primitive
 
-    for reference, path, shown, source in files:
-        kernel_of(load_primitive(reference, Path(path), shown, source)).bitcode()
+    for (reference, path, shown, source), others in files:
+        shared = [Shared(name, Path(place), seen, text) for name, place, seen, text in others]
+        kernel_of(load_primitive(reference, Path(path), shown, source, shared)).bitcode()
 
 
 if __name__ == "__main__":

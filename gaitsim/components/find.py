@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from gaitsim.components.composite import ComponentFile, load_composite
 from gaitsim.components.contract import kind_faults
-from gaitsim.components.load import as_lines, digest_of, load_primitive
+from gaitsim.components.load import as_lines, load_primitive
+from gaitsim.components.shared import Shared, imported_names
 from gaitsim.components.table import Table, load_table
 from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean, nearest
 from gaitsim.text.document import text_of
 
-_LOADERS: dict[str, Callable[[str, Path, str, str], ComponentFile]] = {
-    ".py": load_primitive,
-    ".yaml": load_composite,
-}
-
-
+_SUFFIXES = (".py", ".yaml")
 _LONGEST = 200  # letters; no file system has longer names
 KIND = "kind.yaml"  # the contract of a kind
 SKELETON = "_skeleton.py"  # what `gaitsim library new` begins with
@@ -26,7 +22,7 @@ SKELETON = "_skeleton.py"  # what `gaitsim library new` begins with
 
 def is_component(path: Path) -> bool:
     """Whether a file in the folder of a kind is a component that specs can use."""
-    return path.name not in (KIND, SKELETON) and path.suffix in _LOADERS
+    return path.name != KIND and not path.name.startswith("_") and path.suffix in _SUFFIXES
 
 
 def shipped_folder() -> Path:
@@ -80,7 +76,7 @@ class Library:
         found = {
             f"{path.parent.name}/{path.stem}"
             for folder in self.folders
-            for suffix in _LOADERS
+            for suffix in _SUFFIXES
             for path in self._matching(folder, kind, suffix)
             if is_component(path)
         }
@@ -117,6 +113,19 @@ class Library:
         path = next((f / kind / KIND for f in self.folders if self._has(f / kind / KIND)), None)
         return (path, self._text(path, "contract")) if path else None
 
+    def shared(self, kind: str, source: str) -> list[Shared]:
+        """The files of a kind that the text of a component imports from, as far as there are any.
+
+        Errors: InvalidSpec.
+        """
+        found = []
+        for name in imported_names(source):
+            files = [f / kind / f"{name}.py" for f in self.folders if self._has(f / kind / f"{name}.py")]
+            if files:
+                text = as_lines(self._text(files[0], "file"))
+                found.append(Shared(name, files[0], shown(files[0]), text))
+        return found
+
     def _load(self, reference: str) -> ComponentFile:
         files = self._files(reference)
         if not files:
@@ -126,21 +135,27 @@ class Library:
         if len(twins) > 1:
             both = " and ".join(shown(f) for f in twins)
             raise InvalidSpec(Fault(f"{reference} is both {both}; remove one of them."))
-        loaded = _LOADERS[path.suffix](reference, path, shown(path), self._text(path, "component"))
+        loaded = self._read(reference, path)
         contract = self.contract(loaded.kind)
         faults = kind_faults(loaded, contract[1], shown(path), shown(contract[0])) if contract else []
         if faults:
             raise InvalidSpec(faults)
         for hidden in files[1:]:
-            if digest_of(as_lines(self._text(hidden, "component"))) != loaded.digest:
+            if as_lines(self._text(hidden, "component")) != loaded.source:
                 self.notices.append(f"{shown(path)} hides {shown(hidden)}")
         return loaded
+
+    def _read(self, reference: str, path: Path) -> ComponentFile:
+        text = self._text(path, "component")
+        if path.suffix == ".yaml":
+            return load_composite(reference, path, shown(path), text)
+        return load_primitive(reference, path, shown(path), text, self.shared(path.parent.name, text))
 
     def _files(self, reference: str) -> list[Path]:
         kind, _, name = reference.partition("/")
         if not (kind.isidentifier() and name.isidentifier()) or len(reference) > _LONGEST:
             return []
-        paths = [folder / kind / f"{name}{suffix}" for folder in self.folders for suffix in _LOADERS]
+        paths = [folder / kind / f"{name}{suffix}" for folder in self.folders for suffix in _SUFFIXES]
         return [path for path in paths if self._has(path)]
 
     def _has(self, path: Path) -> bool:

@@ -12,10 +12,11 @@ from typing import Any
 
 from gaitsim.component import Component, Input, Link, Output, Parameter, Part
 from gaitsim.components.checks.audited import remember, sound_dependencies
-from gaitsim.components.checks.check import check_names, declaration_marks, parse
+from gaitsim.components.checks.check import check_names, declaration_marks, parse, parse_shared, place
 from gaitsim.components.checks.dependency import output_dependencies
 from gaitsim.components.ieee import ieee_math
 from gaitsim.components.primitive import Primitive
+from gaitsim.components.shared import Shared, builtins_with, import_faults, whole
 from gaitsim.errors import Fault, InvalidComponent, Mark, did_you_mean
 from gaitsim.text.expression import BadExpression, parse_expression
 
@@ -32,41 +33,76 @@ def as_lines(text: str) -> str:
     return io.StringIO(text, newline=None).read()
 
 
-def load_primitive(reference: str, path: Path, shown: str, text: str) -> Primitive:
-    """The component that a text holds; `path` is where it lies, and `shown` how errors name that.
+def load_primitive(reference: str, path: Path, shown: str, text: str, shared: Sequence[Shared] = ()) -> Primitive:
+    """Load the component that a text holds.
 
-    Errors: InvalidComponent with every fault of the file.
+    Args:
+        reference: Kind and name, such as "muscle/geyer2003".
+        path: Where the file lies.
+        shown: How errors name the file.
+        text: The content of the file.
+        shared: The files of the kind that the text imports from.
+
+    Raises:
+        InvalidComponent: The file has faults; the error holds all of them.
     """
     source = as_lines(text)
-    dependencies = sound_dependencies(source)
+    everything = whole(source, shared)
+    dependencies = sound_dependencies(everything)
     if dependencies is None:
         tree = parse(source, shown)
-        cls = component_class(execute(source, shown, ieee_math()))
-        if faults := _faults(source, tree, cls, shown):
+        others = _sound_trees(source, tree, shown, shared)
+        cls = component_class(execute(source, shown, ieee_math(), shared))
+        if faults := _faults(source, tree, cls, shown, shared, others):
             raise InvalidComponent(faults)
-        dependencies = output_dependencies(tree, cls.declarations)
-        remember(source, dependencies)
+        dependencies = output_dependencies(tree, cls.declarations, others)
+        remember(everything, dependencies)
     else:
-        cls = component_class(execute(source, shown, ieee_math()))
+        cls = component_class(execute(source, shown, ieee_math(), shared))
     functions = frozenset(name for name in FUNCTIONS if name in vars(cls))
-    return Primitive(reference, path, shown, source, digest_of(source), cls, dependencies, functions)
+    digest = digest_of(everything)
+    return Primitive(reference, path, shown, source, digest, cls, dependencies, functions, tuple(shared))
 
 
-def _faults(source: str, tree: ast.Module, cls: type[Component], shown: str) -> Sequence[Fault]:
+def _sound_trees(source: str, tree: ast.Module, shown: str, shared: Sequence[Shared]) -> list[ast.Module]:
+    """The syntax trees of the shared files, which define all that the component imports.
+
+    Errors: InvalidComponent.
+    """
+    others = [parse_shared(file.source, file.shown) for file in shared]
+    lines = source.splitlines()
+    wrong = import_faults(tree, shared, others)
+    faults = [Fault(message, place(shown, lines, node.lineno, node.col_offset)) for message, node in wrong]
+    for file, other in zip(shared, others, strict=True):
+        faults += check_names(other, {}, file.shown, file.source.splitlines())
+    if faults:
+        raise InvalidComponent(faults)
+    return others
+
+
+def _faults(
+    source: str,
+    tree: ast.Module,
+    cls: type[Component],
+    shown: str,
+    shared: Sequence[Shared],
+    others: Sequence[ast.Module],
+) -> Sequence[Fault]:
     """What is wrong in a file that Python could run: the first kind of mistakes that there is."""
     from gaitsim.components.checks.audit import audit
 
     lines = source.splitlines()
     return (
-        check_names(tree, cls.declarations, shown, lines)
+        check_names(tree, cls.declarations, shown, lines, others)
         or _part_faults(cls, declaration_marks(tree, shown, lines))
-        or audit(source, shown).faults
+        or audit(source, shown, shared).faults
     )
 
 
-def execute(source: str, file: str, mathematics: Any) -> dict[str, Any]:
-    """The namespace of a component file, with `math` replaced."""
-    namespace: dict[str, Any] = {"__name__": "component"}
+def execute(source: str, file: str, mathematics: Any, shared: Sequence[Shared] = ()) -> dict[str, Any]:
+    """The namespace of a component file and of those that it imports from, with `math` replaced."""
+    spaces = {other.name: execute(other.source, other.shown, mathematics) for other in shared}
+    namespace: dict[str, Any] = {"__name__": "component", "__builtins__": builtins_with(spaces)}
     try:
         exec(compile(source, file, "exec"), namespace)
     except Exception as error:

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from gaitsim import component as c
+from gaitsim.components.shared import Shared, whole
 from gaitsim.units import parse_unit, scaled
 
 D = TypeVar("D")
@@ -18,7 +19,10 @@ D = TypeVar("D")
 
 @dataclass(frozen=True, eq=False)
 class Primitive:
-    """One Python component file."""
+    """One Python component file, and the files of its kind that it imports from.
+
+    digest: Of the component's text and of those that it imports from.
+    """
 
     reference: str
     path: Path
@@ -28,6 +32,7 @@ class Primitive:
     cls: type[c.Component]
     dependencies: Mapping[str, frozenset[str]]
     functions: frozenset[str]
+    shared: tuple[Shared, ...] = ()
 
     def declared(self, kind: type[D]) -> dict[str, D]:
         """The declarations of one kind, in the order of the file."""
@@ -93,6 +98,11 @@ class Primitive:
     def largest_step(self) -> float:
         """The largest step in seconds at which it is right; infinite if none was declared."""
         return min((scaled(d.value, parse_unit(d.unit).factor) for d in self.step_limits.values()), default=math.inf)
+
+    @property
+    def code(self) -> str:
+        """All text that the component is made of: that of shared files, then its own."""
+        return whole(self.source, self.shared)
 
     @property
     def kind(self) -> str:

@@ -43,7 +43,7 @@ def _of_broken(reference: str, library: Library) -> Iterator[Fault]:
     try:
         source = path.read_text(encoding="utf-8")
         tree = parse(source, file)
-        cls = component_class(execute(source, file, ieee_math()))
+        cls = component_class(execute(source, file, ieee_math(), library.shared(path.parent.name, source)))
     except (OSError, UnicodeError, GaitsimError):
         return
     marks = declaration_marks(tree, file, source.splitlines())
@@ -54,7 +54,7 @@ def _of_primitive(found: Primitive, keys: set[str], library: Library) -> Iterato
     lines = found.source.splitlines()
     marks = declaration_marks(parse(found.source, found.shown), found.shown, lines)
     yield from _policy(found.cls.declarations, found.doc, marks, keys)
-    for line in audit(found.source, found.shown).unreached:
+    for line in audit(found.source, found.shown, found.shared).unreached:
         place = Mark(found.shown, line, 1, lines[line - 1])
         yield Fault("no path leads here, so its units were not checked; remove it, or a condition before it.", place)
     if library.contract(found.kind) is None:

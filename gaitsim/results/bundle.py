@@ -1,12 +1,11 @@
-"""What a model is made of, as files: its spec and a copy of every component. It re-runs anywhere."""
+"""What a model is made of, as files: its spec and a copy of every component and of what it imports. It re-runs anywhere."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import re
-from collections.abc import Iterable
-from collections.abc import Mapping as Map
+from collections.abc import Iterable, Mapping as Map
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -15,6 +14,7 @@ from gaitsim.model import Model
 from gaitsim.components.find import Library, shown
 from gaitsim.components.load import as_lines
 from gaitsim.text.document import Mapping, dump, parse, plain, text_of
+from gaitsim.components.primitive import Primitive
 from gaitsim.spec.inheritance import without_marked
 from gaitsim.spec.resolve import resolve
 
@@ -91,6 +91,9 @@ def bundled(
         files[START] = json.dumps(dict(starts), indent=2) + "\n"
     for reference, component in library.used().items():
         files[f"{COMPONENTS}/{reference}{component.path.suffix}"] = component.source
+        if isinstance(component, Primitive):
+            for file in component.shared:
+                files[f"{COMPONENTS}/{component.kind}/{file.name}.py"] = file.source
         contract = library.contract(component.kind)
         if contract:
             files[f"{COMPONENTS}/{component.kind}/kind.yaml"] = contract[1]

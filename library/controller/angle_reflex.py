@@ -1,5 +1,7 @@
 from gaitsim.component import Component, Curve, Input, Output, Parameter
 
+from ._reflex import LOWER, UPPER, gated
+
 
 class AngleReflex(Component):
     """Stimulation from an angle and its rate: S = S_0 + k_p (phi - phi_ref) + k_d phi', clamped and gated.
@@ -24,20 +26,8 @@ class AngleReflex(Component):
         bounds=(-1, 1),
         source="definition: added to another reflex, which has S_0",
     )
-    lower = Parameter(
-        "1",
-        "Least stimulation before the gate.",
-        default=-1e6,
-        bounds=(-1e6, 1e6),
-        source="definition: unclamped; the muscle clips the sum",
-    )
-    upper = Parameter(
-        "1",
-        "Largest stimulation before the gate.",
-        default=1e6,
-        bounds=(-1e6, 1e6),
-        source="definition: unclamped; the muscle clips the sum",
-    )
+    lower = LOWER
+    upper = UPPER
     angle = Input("rad", "Angle of a joint or a segment.")
     angular_velocity = Input("rad/s", "Its rate.", default=0)
     gate = Input("1", "1 lets the reflex through, 0 leaves nothing.", default=1)
@@ -54,4 +44,4 @@ class AngleReflex(Component):
     @staticmethod
     def output(p, u, x, y):
         wanted = p.bias + p.proportional * (u.angle - p.reference) + p.derivative * u.angular_velocity
-        y.stimulation = u.gate * max(p.lower, min(p.upper, wanted))
+        y.stimulation = gated(wanted, u.gate, p.lower, p.upper)

@@ -1,5 +1,7 @@
 from gaitsim.component import Component, Curve, Input, Output, Parameter
 
+from ._reflex import LOWER, UPPER, gated
+
 
 class LengthReflex(Component):
     """Stimulation from a muscle's delayed fiber length: S = S_0 + G (l - l_off), clamped and gated.
@@ -19,20 +21,8 @@ class LengthReflex(Component):
         bounds=(-1e6, 0),
         source="definition: a fiber shorter than l_off inhibits",
     )
-    lower = Parameter(
-        "1",
-        "Least stimulation before the gate.",
-        default=-1e6,
-        bounds=(-1e6, 1e6),
-        source="definition: unclamped; the muscle clips the sum",
-    )
-    upper = Parameter(
-        "1",
-        "Largest stimulation before the gate.",
-        default=1e6,
-        bounds=(-1e6, 1e6),
-        source="definition: unclamped; the muscle clips the sum",
-    )
+    lower = LOWER
+    upper = UPPER
     signal = Input("1", "Normalized fiber length of a muscle, in l_opt.")
     gate = Input("1", "1 lets the reflex through, 0 leaves nothing, not even S_0.", default=1)
     stimulation = Output("1", "Contribution to the muscle's excitation.")
@@ -44,4 +34,4 @@ class LengthReflex(Component):
     @staticmethod
     def output(p, u, x, y):
         wanted = p.bias + max(p.least, p.gain * (u.signal - p.offset))
-        y.stimulation = u.gate * max(p.lower, min(p.upper, wanted))
+        y.stimulation = gated(wanted, u.gate, p.lower, p.upper)

@@ -1,5 +1,7 @@
 from gaitsim.component import Component, Curve, Input, Output, Parameter
 
+from ._reflex import LOWER, UPPER, gated
+
 
 class VelocityReflex(Component):
     """Stimulation from a muscle's delayed fiber velocity: S = S_0 + G (v - v_off), clamped and gated.
@@ -23,20 +25,8 @@ class VelocityReflex(Component):
         bounds=(-1, 1),
         source="definition: added to another reflex, which has S_0",
     )
-    lower = Parameter(
-        "1",
-        "Least stimulation before the gate.",
-        default=-1e6,
-        bounds=(-1e6, 1e6),
-        source="definition: unclamped; the muscle clips the sum",
-    )
-    upper = Parameter(
-        "1",
-        "Largest stimulation before the gate.",
-        default=1e6,
-        bounds=(-1e6, 1e6),
-        source="definition: unclamped; the muscle clips the sum",
-    )
+    lower = LOWER
+    upper = UPPER
     signal = Input("1", "Normalized fiber velocity of a muscle, in v_max; shortening is negative.")
     gate = Input("1", "1 lets the reflex through, 0 leaves nothing, not even S_0.", default=1)
     stimulation = Output("1", "Contribution to the muscle's excitation.")
@@ -48,4 +38,4 @@ class VelocityReflex(Component):
     @staticmethod
     def output(p, u, x, y):
         wanted = p.bias + p.gain * (u.signal - p.offset)
-        y.stimulation = u.gate * max(p.lower, min(p.upper, wanted))
+        y.stimulation = gated(wanted, u.gate, p.lower, p.upper)

@@ -2,6 +2,8 @@ import math
 
 from gaitsim.component import Component, Input, Output, Parameter
 
+from ._mass import DENSITY, SLOW_TWITCH, SPECIFIC_TENSION, muscle_mass
+
 
 class Bhargava2004(Component):
     """Metabolic power by activation, maintenance and shortening heat and work (Bhargava et al. 2004).
@@ -16,17 +18,9 @@ class Bhargava2004(Component):
     max_isometric_force = Parameter("N", "F_max of the muscle.", bounds=(1, 1e6))
     optimal_fiber_length = Parameter("m", "l_opt of the muscle.", bounds=(1e-3, 1))
     max_contraction_velocity = Parameter("1/s", "v_max of the muscle in l_opt per second.", bounds=(1, 50))
-    slow_twitch = Parameter(
-        "1", "r: mass fraction of slow fibers.", default=0.5, bounds=(0, 1), source="definition: half of each kind"
-    )
-    specific_tension = Parameter(
-        "MPa",
-        "sigma: stress at F_max; mass = F_max / sigma rho l_opt.",
-        default=0.25,
-        bounds=(0.01, 10),
-        source="umberger2003",
-    )
-    density = Parameter("kg/m^3", "rho of muscle.", default=1059.7, bounds=(100, 1e4), source="umberger2003")
+    slow_twitch = SLOW_TWITCH
+    specific_tension = SPECIFIC_TENSION
+    density = DENSITY
     slow_activation_heat = Parameter(
         "W/kg", "Activation heat of slow fibers.", default=40, bounds=(0, 1000), source="bhargava2004"
     )
@@ -64,7 +58,7 @@ class Bhargava2004(Component):
 
     @staticmethod
     def output(p, u, x, y):
-        mass = p.max_isometric_force / p.specific_tension * p.density * p.optimal_fiber_length
+        mass = muscle_mass(p)
         quarter = 0.5 * math.pi * min(1.0, max(0.0, u.excitation))
         slow, fast = p.slow_twitch * math.sin(quarter), (1 - p.slow_twitch) * (1 - math.cos(quarter))
         length = u.normalized_fiber_length

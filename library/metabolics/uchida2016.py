@@ -2,6 +2,17 @@ import math
 
 from gaitsim.component import Component, Input, Output, Parameter
 
+from ._mass import DENSITY, SLOW_TWITCH, SPECIFIC_TENSION, muscle_mass
+from ._umberger2003 import (
+    AEROBIC,
+    FAST_HEAT,
+    FAST_SHORTENING_HEAT,
+    SLOW_HEAT,
+    SLOW_SHORTENING_HEAT,
+    heat_level,
+    heat_per_mass,
+)
+
 
 class Uchida2016(Component):
     """Metabolic power of Umberger et al. (2003) as changed by Uchida et al. (2016): OpenSim's default.
@@ -14,34 +25,14 @@ class Uchida2016(Component):
     max_isometric_force = Parameter("N", "F_max of the muscle.", bounds=(1, 1e6))
     optimal_fiber_length = Parameter("m", "l_opt of the muscle.", bounds=(1e-3, 1))
     max_contraction_velocity = Parameter("1/s", "v_max of the muscle in l_opt per second.", bounds=(1, 50))
-    slow_twitch = Parameter(
-        "1", "r: mass fraction of slow fibers.", default=0.5, bounds=(0, 1), source="definition: half of each kind"
-    )
-    specific_tension = Parameter(
-        "MPa",
-        "sigma: stress at F_max; mass = F_max / sigma rho l_opt.",
-        default=0.25,
-        bounds=(0.01, 10),
-        source="umberger2003",
-    )
-    density = Parameter("kg/m^3", "rho of muscle.", default=1059.7, bounds=(100, 1e4), source="umberger2003")
-    aerobic = Parameter(
-        "1", "S: scale of all heat; 1.5 aerobic, 1 anaerobic.", default=1.5, bounds=(0, 3), source="umberger2003"
-    )
-    slow_heat = Parameter(
-        "W/kg", "Activation and maintenance heat of all fibers.", default=25, bounds=(0, 1000), source="umberger2003"
-    )
-    fast_heat = Parameter("W/kg", "What fast fibers add to it.", default=128, bounds=(0, 1000), source="umberger2003")
-    slow_shortening_heat = Parameter(
-        "W/kg",
-        "Shortening heat of slow fibers at their v_max, and their most.",
-        default=100,
-        bounds=(0, 1000),
-        source="umberger2003",
-    )
-    fast_shortening_heat = Parameter(
-        "W/kg", "Shortening heat of fast fibers at v_max.", default=153, bounds=(0, 1000), source="umberger2003"
-    )
+    slow_twitch = SLOW_TWITCH
+    specific_tension = SPECIFIC_TENSION
+    density = DENSITY
+    aerobic = AEROBIC
+    slow_heat = SLOW_HEAT
+    fast_heat = FAST_HEAT
+    slow_shortening_heat = SLOW_SHORTENING_HEAT
+    fast_shortening_heat = FAST_SHORTENING_HEAT
     lengthening = Parameter(
         "1", "Lengthening heat in shortening heats of slow fibers.", default=4, bounds=(0, 100), source="umberger2003"
     )
@@ -61,25 +52,15 @@ class Uchida2016(Component):
 
     @staticmethod
     def output(p, u, x, y):
-        mass = p.max_isometric_force / p.specific_tension * p.density * p.optimal_fiber_length
         excitation = min(1.0, max(0.0, u.excitation))
-        level = excitation if excitation > u.activation else 0.5 * (excitation + u.activation)
+        level = heat_level(excitation, u.activation)
         velocity = u.fiber_velocity / p.optimal_fiber_length
         slow_share = p.slow_twitch * math.sin(0.5 * math.pi * excitation)
         fast_share = (1 - p.slow_twitch) * (1 - math.cos(0.5 * math.pi * excitation))
         active = slow_share + fast_share
         slow = slow_share / active if active > 0 else 1.0
-        maintenance = p.aerobic * level**0.6 * (p.fast_heat * (1 - slow) + p.slow_heat)
-        slow_rise = -2.5 * p.slow_shortening_heat * velocity / p.max_contraction_velocity
-        if velocity <= 0:
-            fast_rise = -p.fast_shortening_heat * velocity / p.max_contraction_velocity
-            moving = level * level * (min(slow_rise, p.slow_shortening_heat) * slow + fast_rise * (1 - slow))
-        else:
-            moving = -level * p.lengthening * slow_rise
-        if u.normalized_fiber_length > 1:
-            maintenance = maintenance * (0.4 + 0.6 * u.normalized_isometric_force)
-            moving = moving * u.normalized_isometric_force
-        y.heat = mass * max(p.least_heat, maintenance + p.aerobic * moving)
+        length, isometric = u.normalized_fiber_length, u.normalized_isometric_force
+        y.heat = muscle_mass(p) * heat_per_mass(p, level, slow, velocity, length, isometric)
         y.work = -u.fiber_force * u.fiber_velocity
         y.heat = max(y.heat, -y.work)
         y.power = y.heat + y.work

@@ -2,41 +2,8 @@ import math
 
 from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, State, StepLimit
 
-LEAST, MOST = math.exp(0.2 * 4 / 0.6), math.exp(1.6 * 4 / 0.6)  # passive elasticity at its ends
-# The paper's digits are rounded; OpenSim's are not: f_l is 1 at 1, and f_v is 0 at -1 and 1 at 0.
-FIRST = (0.8150671134243542, 1.055033428970575, 0.162384573599574, 0.063303448465465)
-SECOND = (0.433004984392647, 0.716775413397760, -0.029947116970696, 0.200356847296188)
-THIRD = (0.1, 1.0, 0.353553390593274, 0.0)
-D_1, D_2, D_3, D_4 = -0.3211346127989808, -8.149, -0.374, 0.8825327733249912
-
-
-def gaussian(length, coefficients):
-    """b_1 exp(-((l - b_2) / (b_3 + b_4 l))^2 / 2)."""
-    height, center, width, widening = coefficients
-    offset = (length - center) / (width + widening * length)
-    return height * math.exp(-0.5 * offset * offset)
-
-
-def active_force(length):
-    """f_l: three Gaussians whose width grows with the length."""
-    return gaussian(length, FIRST) + gaussian(length, SECOND) + gaussian(length, THIRD)
-
-
-def force_velocity(velocity):
-    """f_v = d_1 asinh(d_2 v + d_3) + d_4, v in v_max."""
-    return D_1 * math.asinh(D_2 * velocity + D_3) + D_4
-
-
-def passive_force(length):
-    """f_PE: exponential, 0 at 0.2 and 1 at 1.6 optimal lengths."""
-    return max(0.0, math.exp(length * 4 / 0.6) - LEAST) / (MOST - LEAST)
-
-
-def passive_energy(length):
-    """Integral of f_PE over the length."""
-    long = max(0.2, length)
-    return (0.15 * (math.exp(long * 4 / 0.6) - LEAST) - LEAST * (long - 0.2)) / (MOST - LEAST)
-
+from ._degroote2016 import D_1, D_2, D_3, D_4, active_force, force_velocity, passive_energy, passive_force
+from ._hill import METABOLICS, PATH_LENGTH, PENNATE_PATH, PENNATION_ANGLE, STEP_MEASURE, look_ahead
 
 SLOWEST, FASTEST = force_velocity(-1), force_velocity(1)
 
@@ -84,11 +51,6 @@ def velocity_after(velocity, strain, loss, stiffness, cosine, beside, strength):
     return velocity
 
 
-def look_ahead(stiffness):
-    """Where within a step the balance holds: half way if it changes slowly, at the end the faster it does."""
-    return (3 + stiffness) / (6 + stiffness)
-
-
 class DeGroote2016(Component):
     """Hill-type muscle-tendon unit with an elastic tendon, a pennate fiber and smooth curves (De Groote et al. 2016).
 
@@ -102,13 +64,7 @@ class DeGroote2016(Component):
     max_contraction_velocity = Parameter(
         "1/s", "v_max in optimal fiber lengths per second.", default=10, bounds=(1, 50), source="degroote2016"
     )
-    pennation_angle = Parameter(
-        "rad",
-        "alpha at the optimal length.",
-        default=0,
-        bounds=(0, 1.4),
-        source="definition: fibers along the tendon",
-    )
+    pennation_angle = PENNATION_ANGLE
     tendon_strain = Parameter(
         "1", "Strain of the tendon at F_max.", default=0.049, bounds=(1e-3, 1), source="dembia2020: OpenSim's model"
     )
@@ -116,20 +72,9 @@ class DeGroote2016(Component):
         "1", "Floor of the fiber in optimal lengths.", default=0.2, bounds=(0.01, 0.9), source="degroote2016: f_PE"
     )
 
-    largest_step = StepLimit(
-        "ms",
-        "Force within 2 % of F_max of that at 5 us at every instant: an isometric contraction and relaxation, "
-        "stretches and releases at half v_max at A = 0.01 and 0.5, 0.3 F_max lifted; soleus, vasti, hip flexors.",
-        0.5,
-    )
+    largest_step = StepLimit("ms", STEP_MEASURE, 0.5)
 
-    path = Part(
-        "path",
-        "Geometry from origin to insertion.",
-        reads=(("path_length", "length"), ("path_velocity", "velocity")),
-        sends=(("tension", "force"),),
-        gives=(("reference_length", "optimal_fiber_length * cos(pennation_angle) + tendon_slack_length"),),
-    )
+    path = PENNATE_PATH
     activation_dynamics = Part(
         "activation",
         "From excitation to activation.",
@@ -137,33 +82,10 @@ class DeGroote2016(Component):
         reads=(("activation_level", "activation"),),
         sends=(("excitation", "excitation"),),
     )
-    metabolics = Part(
-        "metabolics",
-        "Metabolic power; a spec that wants it says which.",
-        optional=True,
-        sends=(
-            ("excitation", "excitation"),
-            ("activation", "activation"),
-            ("normalized_isometric_force", "normalized_isometric_force"),
-            ("normalized_fiber_length", "normalized_fiber_length"),
-            ("fiber_velocity", "fiber_velocity"),
-            ("fiber_force", "fiber_force"),
-            ("force", "force"),
-        ),
-        gives=(
-            ("max_isometric_force", "max_isometric_force"),
-            ("optimal_fiber_length", "optimal_fiber_length"),
-            ("max_contraction_velocity", "max_contraction_velocity"),
-        ),
-    )
+    metabolics = METABOLICS
     excitation = Input("1", "Sum of all stimulations.", sums=True)
     activation_level = Input("1", "Activation.")
-    path_length = Input(
-        "m",
-        "Length of the whole muscle-tendon unit.",
-        usual=("tendon_slack_length + 0.3 * optimal_fiber_length", 10),  # below it, the tendon is slack
-        possible=("0.5 * tendon_slack_length", 10),
-    )
+    path_length = PATH_LENGTH
     path_velocity = Input("m/s", "Its lengthening velocity.")
 
     length = State("m", "Length of the fiber.")

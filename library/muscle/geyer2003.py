@@ -2,6 +2,8 @@ import math
 
 from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, State, StepLimit
 
+from ._hill import METABOLICS, PATH_LENGTH, STEP_MEASURE
+
 
 def force_length(length, width):
     """f_l = exp(ln(0.05) |(l - 1) / w|^3); 0.05 at l = 1 +- w."""
@@ -48,12 +50,7 @@ class Geyer2003(Component):
         "1", "Floor of the fiber in optimal lengths.", default=0.05, bounds=(1e-3, 0.5), source="geyer2010"
     )
 
-    largest_step = StepLimit(
-        "ms",
-        "Force within 2 % of F_max of that at 5 us at every instant: an isometric contraction and relaxation, "
-        "stretches and releases at half v_max at A = 0.01 and 0.5, 0.3 F_max lifted; soleus, vasti, hip flexors.",
-        0.1,
-    )
+    largest_step = StepLimit("ms", STEP_MEASURE, 0.1)
 
     path = Part(
         "path",
@@ -69,33 +66,10 @@ class Geyer2003(Component):
         reads=(("activation_level", "activation"),),
         sends=(("excitation", "excitation"),),
     )
-    metabolics = Part(
-        "metabolics",
-        "Metabolic power; a spec that wants it says which.",
-        optional=True,
-        sends=(
-            ("excitation", "excitation"),
-            ("activation", "activation"),
-            ("normalized_isometric_force", "normalized_isometric_force"),
-            ("normalized_fiber_length", "normalized_fiber_length"),
-            ("fiber_velocity", "fiber_velocity"),
-            ("fiber_force", "fiber_force"),
-            ("force", "force"),
-        ),
-        gives=(
-            ("max_isometric_force", "max_isometric_force"),
-            ("optimal_fiber_length", "optimal_fiber_length"),
-            ("max_contraction_velocity", "max_contraction_velocity"),
-        ),
-    )
+    metabolics = METABOLICS
     excitation = Input("1", "Sum of all stimulations.", sums=True)
     activation_level = Input("1", "Activation.")
-    path_length = Input(
-        "m",
-        "Length of the whole muscle-tendon unit.",
-        usual=("tendon_slack_length + 0.3 * optimal_fiber_length", 10),  # below it, the tendon is slack
-        possible=("0.5 * tendon_slack_length", 10),
-    )
+    path_length = PATH_LENGTH
     hold = Input("1", "1 holds the fiber where the tendon is just taut: a leg in the air.", default=0)
 
     length = State("m", "Length of the contractile element, l_CE.")

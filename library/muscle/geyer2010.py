@@ -2,6 +2,8 @@ import math
 
 from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, State, StepLimit
 
+from ._hill import METABOLICS, PATH_LENGTH, look_ahead
+
 
 def force_length(length, width):
     """f_l = exp(ln(0.05) |(l - 1) / w|^3); 0.05 at l = 1 +- w."""
@@ -69,11 +71,6 @@ def velocity_after(velocity, strain, loss, strength, buffer, eccentric, curvatur
     return velocity
 
 
-def look_ahead(stiffness):
-    """Where within a step the balance holds: half way if it changes slowly, at the end the faster it does."""
-    return (3 + stiffness) / (6 + stiffness)
-
-
 class Geyer2010(Component):
     """Hill-type muscle-tendon unit with parallel and buffer elasticity (Geyer & Herr 2010).
 
@@ -132,33 +129,10 @@ class Geyer2010(Component):
         reads=(("activation_level", "activation"),),
         sends=(("excitation", "excitation"),),
     )
-    metabolics = Part(
-        "metabolics",
-        "Metabolic power; a spec that wants it says which.",
-        optional=True,
-        sends=(
-            ("excitation", "excitation"),
-            ("activation", "activation"),
-            ("normalized_isometric_force", "normalized_isometric_force"),
-            ("normalized_fiber_length", "normalized_fiber_length"),
-            ("fiber_velocity", "fiber_velocity"),
-            ("fiber_force", "fiber_force"),
-            ("force", "force"),
-        ),
-        gives=(
-            ("max_isometric_force", "max_isometric_force"),
-            ("optimal_fiber_length", "optimal_fiber_length"),
-            ("max_contraction_velocity", "max_contraction_velocity"),
-        ),
-    )
+    metabolics = METABOLICS
     excitation = Input("1", "Sum of all stimulations.", sums=True)
     activation_level = Input("1", "Activation.")
-    path_length = Input(
-        "m",
-        "Length of the whole muscle-tendon unit.",
-        usual=("tendon_slack_length + 0.3 * optimal_fiber_length", 10),  # below it, the tendon is slack
-        possible=("0.5 * tendon_slack_length", 10),
-    )
+    path_length = PATH_LENGTH
     path_velocity = Input("m/s", "Its lengthening velocity.")
 
     length = State("m", "Length of the contractile element, l_CE.")

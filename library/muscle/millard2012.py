@@ -2,6 +2,8 @@ import math
 
 from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, State, StepLimit
 
+from ._hill import METABOLICS, PATH_LENGTH, PENNATE_PATH, PENNATION_ANGLE, STEP_MEASURE, look_ahead
+
 PASSIVE_STRAIN = 0.7  # of the fiber at F_max
 TOE_END = 1 - (1 - 2 / 3) / 1.375  # where the tendon becomes linear, in strains at F_max
 GAUSS = (  # nodes and weights on [0, 1]; five integrate polynomials of degree nine exactly
@@ -207,11 +209,6 @@ def velocity_after(velocity, strain, loss, cosine, beside, strength, damping):
     return velocity
 
 
-def look_ahead(stiffness):
-    """Where within a step the balance holds: half way if it changes slowly, at the end the faster it does."""
-    return (3 + stiffness) / (6 + stiffness)
-
-
 class Millard2012(Component):
     """Hill-type muscle-tendon unit with an elastic tendon, a pennate fiber and fiber damping (Millard et al. 2013).
 
@@ -226,13 +223,7 @@ class Millard2012(Component):
     max_contraction_velocity = Parameter(
         "1/s", "v_max in optimal fiber lengths per second.", default=10, bounds=(1, 50), source="millard2013"
     )
-    pennation_angle = Parameter(
-        "rad",
-        "alpha at the optimal length.",
-        default=0,
-        bounds=(0, 1.4),
-        source="definition: fibers along the tendon",
-    )
+    pennation_angle = PENNATION_ANGLE
     tendon_strain = Parameter(
         "1", "Strain of the tendon at F_max.", default=0.049, bounds=(1e-3, 1), source="millard2013"
     )
@@ -243,20 +234,9 @@ class Millard2012(Component):
         "1", "Floor of the fiber in optimal lengths.", default=0.4441, bounds=(0.01, 0.9), source="millard2013"
     )
 
-    largest_step = StepLimit(
-        "ms",
-        "Force within 2 % of F_max of that at 5 us at every instant: an isometric contraction and relaxation, "
-        "stretches and releases at half v_max at A = 0.01 and 0.5, 0.3 F_max lifted; soleus, vasti, hip flexors.",
-        0.5,
-    )
+    largest_step = StepLimit("ms", STEP_MEASURE, 0.5)
 
-    path = Part(
-        "path",
-        "Geometry from origin to insertion.",
-        reads=(("path_length", "length"), ("path_velocity", "velocity")),
-        sends=(("tension", "force"),),
-        gives=(("reference_length", "optimal_fiber_length * cos(pennation_angle) + tendon_slack_length"),),
-    )
+    path = PENNATE_PATH
     activation_dynamics = Part(
         "activation",
         "From excitation to activation.",
@@ -264,33 +244,10 @@ class Millard2012(Component):
         reads=(("activation_level", "activation"),),
         sends=(("excitation", "excitation"),),
     )
-    metabolics = Part(
-        "metabolics",
-        "Metabolic power; a spec that wants it says which.",
-        optional=True,
-        sends=(
-            ("excitation", "excitation"),
-            ("activation", "activation"),
-            ("normalized_isometric_force", "normalized_isometric_force"),
-            ("normalized_fiber_length", "normalized_fiber_length"),
-            ("fiber_velocity", "fiber_velocity"),
-            ("fiber_force", "fiber_force"),
-            ("force", "force"),
-        ),
-        gives=(
-            ("max_isometric_force", "max_isometric_force"),
-            ("optimal_fiber_length", "optimal_fiber_length"),
-            ("max_contraction_velocity", "max_contraction_velocity"),
-        ),
-    )
+    metabolics = METABOLICS
     excitation = Input("1", "Sum of all stimulations.", sums=True)
     activation_level = Input("1", "Activation.")
-    path_length = Input(
-        "m",
-        "Length of the whole muscle-tendon unit.",
-        usual=("tendon_slack_length + 0.3 * optimal_fiber_length", 10),  # below it, the tendon is slack
-        possible=("0.5 * tendon_slack_length", 10),
-    )
+    path_length = PATH_LENGTH
     path_velocity = Input("m/s", "Its lengthening velocity.")
 
     length = State("m", "Length of the fiber.")

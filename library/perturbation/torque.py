@@ -1,9 +1,6 @@
 from gaitsim.component import Component, Input, Output, Parameter, State
 
-
-def share_of_step(begin, dt, onset, duration):
-    """How much of the step from `begin` on lies within the pulse; the impulse is exact at any step."""
-    return max(0.0, min(begin + dt, onset + duration) - max(begin, onset)) / dt
+from ._pulse import share_at_start, share_of_step
 
 
 class Torque(Component):
@@ -33,8 +30,7 @@ class Torque(Component):
     def start(p, u, x):
         x.events = 0.0
         x.steps = 0.0 if p.event_number < 0.5 else -1.0
-        # There is no step yet to take a share of.
-        x.level = 1.0 if p.event_number < 0.5 and p.onset <= 0 and p.duration > 0 else 0.0
+        x.level = share_at_start(p)
 
     @staticmethod
     def output(p, u, x, y):

@@ -9,7 +9,7 @@ from types import SimpleNamespace
 from typing import Any
 
 from gaitsim.components.composite import Composite
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import SKELETON, Library, is_component, shipped_folder
 from gaitsim.components.load import function_of
 from gaitsim.components.primitive import Primitive
 from gaitsim.simulation.run import Mode
@@ -17,7 +17,7 @@ from gaitsim.simulation.trial import Trial as Tables
 from gaitsim.simulation.view import View
 
 FOLDER = shipped_folder()
-FILES = sorted(path for path in FOLDER.glob("*/*") if path.suffix in (".py", ".yaml") and path.stem != "kind")
+FILES = sorted(path for path in FOLDER.glob("*/*") if is_component(path) or path.name == SKELETON)
 
 
 def reference_of(path: Path) -> str:

@@ -13,6 +13,7 @@ from gaitsim.components.bibliography import entries
 from gaitsim.components.checks.audit import audit
 from gaitsim.components.composite import Composite
 from gaitsim.components.find import Library
+from gaitsim.components.primitive import Primitive
 from gaitsim.components.review import review
 from gaitsim.simulation.curves import graphs, why_no_curves
 
@@ -41,11 +42,12 @@ def test_an_entry_of_the_bibliography_is_whole(key: str) -> None:
 def test_it_keeps_the_contract(path: Path) -> None:
     """What a review asks: docs, sources that exist, bounds, a kind; and its units hold on every path, to the end."""
     reference = reference_of(path)
-    assert component(reference).path == path
+    found = component(reference)
+    assert found.path == path
     assert (path.parent / "kind.yaml").is_file()
     assert [str(fault) for fault in review(reference, Library((FOLDER,)))] == []
-    if path.suffix == ".py":
-        report = audit(path.read_text(encoding="utf-8"), str(path))
+    if isinstance(found, Primitive):
+        report = audit(path.read_text(encoding="utf-8"), str(path), found.shared)
         assert (report.faults, report.unreached, report.complete) == ((), (), True)
 
 

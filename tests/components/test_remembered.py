@@ -2,20 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 import pytest
 
 from gaitsim.components import load
 from gaitsim.components.checks import audit, audited
-from gaitsim.components.find import shipped_folder
+from gaitsim.components.find import Library, shipped_folder
 from gaitsim.components.primitive import Primitive
+from gaitsim.components.shared import Shared
 
 MUSCLE = shipped_folder() / "muscle" / "geyer2003.py"
 
 
 def loaded() -> Primitive:
-    return load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py", MUSCLE.read_text(encoding="utf-8"))
+    text = MUSCLE.read_text(encoding="utf-8")
+    shared = Library((shipped_folder(),)).shared("muscle", text)
+    return load.load_primitive("muscle/geyer2003", MUSCLE, "geyer2003.py", text, shared)
 
 
 @pytest.fixture
@@ -29,9 +33,9 @@ def audits(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     done: list[str] = []
     real = audit.audit
 
-    def counted(source: str, file: str) -> object:
+    def counted(source: str, file: str, shared: Sequence[Shared]) -> object:
         done.append(file)
-        return real(source, file)
+        return real(source, file, shared)
 
     monkeypatch.setattr(audit, "audit", counted)
     return done
@@ -53,7 +57,7 @@ def test_a_damaged_memory_is_made_again(cache: Path, audits: list[str], damage: 
     again = loaded()
     assert len(audits) == 2
     assert again.dependencies == first.dependencies
-    assert audited.sound_dependencies(first.source) == first.dependencies
+    assert audited.sound_dependencies(first.code) == first.dependencies
 
 
 def test_without_a_place_to_remember_a_file_is_checked_each_time(

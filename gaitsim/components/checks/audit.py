@@ -12,14 +12,15 @@ import builtins
 import dis
 import math
 import sys
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from types import FrameType, SimpleNamespace
 from typing import Any
 
 from gaitsim.component import Component, Input, Metric, Output, Parameter, Series, State
-from gaitsim.components.checks.check import SIGNATURES, class_functions, parse, place
+from gaitsim.components.checks.check import SIGNATURES, class_functions, parse, parse_shared, place
 from gaitsim.components.checks.declaration import unit_rule
+from gaitsim.components.shared import Shared, builtins_with
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark
 from gaitsim.units import Dimension, Unit, UnknownUnit, parse_unit
 
@@ -44,16 +45,22 @@ class Audit:
     complete: bool = True
 
 
-def audit(source: str, file: str) -> Audit:
-    """Run every function of a component file on dimensions, along every path."""
+def audit(source: str, file: str, shared: Sequence[Shared] = ()) -> Audit:
+    """Run every function of a component file on dimensions, along every path; also through what it imports."""
     try:
         tree = parse(source, file)
+        others = [parse_shared(other.source, other.shown) for other in shared]
     except InvalidComponent as error:
         return Audit(error.faults, ())
-    statements = _mark_statements(tree)
-    search = _Search(file, source.splitlines())
+    statements = _mark_statements(tree, others)
+    search = _Search(file, {file: source.splitlines()} | {one.shown: one.source.splitlines() for one in shared})
     space = _namespace(search)
     try:
+        spaces = {}
+        for one, other in zip(shared, others, strict=True):
+            spaces[one.name] = _namespace(search)
+            exec(compile(other, one.shown, "exec"), spaces[one.name])
+        space["__builtins__"] = builtins_with(spaces, space["__builtins__"])
         exec(compile(tree, file, "exec"), space)
     except Exception as error:
         search.trip(error)
@@ -235,8 +242,8 @@ class _Dimensions:
 class _Search:
     """The paths through a function: a script of decisions is replayed, then extended."""
 
-    def __init__(self, file: str, lines: list[str]) -> None:
-        self.file, self.lines, self.faults = file, lines, Faults()
+    def __init__(self, file: str, texts: Mapping[str, Sequence[str]]) -> None:
+        self.file, self.texts, self.faults = file, texts, Faults()
         self.dimensions = _Dimensions()
         self.reached: set[int] = set()
         self.complete = True
@@ -349,7 +356,7 @@ class _Search:
 
     def fault(self, message: str) -> None:
         frame: FrameType | None = sys._getframe(1)
-        while frame is not None and frame.f_code.co_filename != self.file:
+        while frame is not None and frame.f_code.co_filename not in self.texts:
             frame = frame.f_back
         mark = self.mark(frame.f_code, frame.f_lasti) if frame else Mark(self.file)
         self.faults.add(message, mark)
@@ -357,7 +364,7 @@ class _Search:
     def mark(self, code: Any, instruction: int) -> Mark:
         """Where an instruction stands in the file."""
         line, _, offset, _ = list(code.co_positions())[instruction // 2]
-        return place(self.file, self.lines, line or 0, offset or 0)
+        return place(code.co_filename, self.texts[code.co_filename], line or 0, offset or 0)
 
     def trip(self, error: Exception) -> None:
         """Tell of an exception, unless the component itself raised it."""
@@ -365,7 +372,7 @@ class _Search:
         while trace is not None:
             code = trace.tb_frame.f_code
             raised = False
-            if code.co_filename == self.file:
+            if code.co_filename in self.texts:
                 mark = self.mark(code, trace.tb_lasti)
                 raised = code.co_code[trace.tb_lasti] == _RAISE
             trace = trace.tb_next
@@ -465,27 +472,39 @@ def _namespace(search: _Search) -> dict[str, Any]:
     }
 
 
-def _mark_statements(tree: ast.Module) -> Mapping[int, int]:
-    """Put a call before each statement of a function, and give the statements' lines by number.
+def _mark_statements(tree: ast.Module, others: Sequence[ast.Module]) -> Mapping[int, int]:
+    """Put a call before each statement of a function, and give the lines of those in the component by number.
 
+    others: The trees of shared files; which lines of theirs are reached depends on the component.
     What only build() uses is left out: it works in MuJoCo, not on numbers.
     """
-    lines: dict[int, int] = {}
     own = class_functions(tree)
-    helpers = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+    theirs = {node.name: node for other in others for node in other.body if isinstance(node, ast.FunctionDef)}
+    mine = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
+    helpers = theirs | mine
     build = own.pop("build", None)
     only_build = _used(build, helpers) - _used(ast.Module(list(own.values()), []), helpers)
-    audited = [*own.values(), *(node for name, node in helpers.items() if name not in only_build)]
-    for function in audited:
-        for node in list(ast.walk(function)):
-            if isinstance(node, ast.For):
-                node.iter = _call("__each__", node.iter, node.iter)
-            for field in ("body", "orelse", "finalbody"):
-                block = getattr(node, field, None)
-                if isinstance(block, list):
-                    setattr(node, field, list(_with_marks(block, lines)))
-    ast.fix_missing_locations(tree)
+    numbers: dict[int, int] = {}
+    for function in (*own.values(), *(node for name, node in mine.items() if name not in only_build)):
+        _mark(function, numbers)
+    lines = dict(numbers)
+    for name, node in theirs.items():
+        if name not in only_build:
+            _mark(node, numbers)
+    for each in (tree, *others):
+        ast.fix_missing_locations(each)
     return lines
+
+
+def _mark(function: ast.FunctionDef, lines: dict[int, int]) -> None:
+    """Put a call before each statement of a function and around what each loop runs over."""
+    for node in list(ast.walk(function)):
+        if isinstance(node, ast.For):
+            node.iter = _call("__each__", node.iter, node.iter)
+        for field in ("body", "orelse", "finalbody"):
+            block = getattr(node, field, None)
+            if isinstance(block, list):
+                setattr(node, field, list(_with_marks(block, lines)))
 
 
 def _with_marks(block: list[ast.stmt], lines: dict[int, int]) -> Iterator[ast.stmt]:

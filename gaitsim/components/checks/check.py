@@ -26,6 +26,7 @@ from gaitsim.components.checks.build import build_faults, placed
 from gaitsim.components.checks.curve import curve_faults
 from gaitsim.components.checks.declaration import field_faults, unknown_fields
 from gaitsim.components.checks.start_range import range_faults
+from gaitsim.components.shared import imports_shared, used_functions
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark, did_you_mean, nearest
 
 SIGNATURES: Mapping[str, tuple[str, ...]] = {
@@ -57,8 +58,8 @@ def place(file: str, lines: Sequence[str], line: int, offset: int) -> Mark:
 
 
 def class_body(tree: ast.Module) -> list[ast.stmt]:
-    """What stands in the class of a parsed component file."""
-    return next(node.body for node in tree.body if isinstance(node, ast.ClassDef))
+    """What stands in the class of a parsed component file; nothing in a shared file, which has none."""
+    return next((node.body for node in tree.body if isinstance(node, ast.ClassDef)), [])
 
 
 def declaration_marks(tree: ast.Module, file: str, lines: Sequence[str]) -> dict[str, Mark]:
@@ -83,14 +84,7 @@ def parse(source: str, file: str) -> ast.Module:
     Errors: InvalidComponent.
     """
     lines, faults = source.split("\n"), Faults()
-    try:
-        tree = ast.parse(source, file)
-    except (SyntaxError, ValueError) as error:
-        line, column = getattr(error, "lineno", 0) or 0, getattr(error, "offset", 0) or 0
-        text = lines[line - 1] if 0 < line <= len(lines) else ""
-        said = getattr(error, "msg", str(error))
-        mark = Mark(file, line, max(column, 1) if line else 0, text)
-        raise InvalidComponent(Fault(f"this is not Python: {said}.", mark)) from None
+    tree = _python(source, file)
     classes = 0
     for node in tree.body:
         mark = place(file, lines, node.lineno, node.col_offset)
@@ -110,6 +104,47 @@ def parse(source: str, file: str) -> ast.Module:
             "a component file holds one class that derives from Component; this has none.",
             Mark(file),
         )
+    _refuse_foreign(tree, file, lines, faults)
+    faults.raise_if_any(InvalidComponent)
+    return tree
+
+
+def parse_shared(source: str, file: str) -> ast.Module:
+    """The syntax tree of a file that components of a kind import from.
+
+    Errors: InvalidComponent.
+    """
+    lines, faults = source.split("\n"), Faults()
+    tree = _python(source, file)
+    for node in tree.body:
+        text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+        allowed = isinstance(node, ast.Import | ast.ImportFrom | ast.Assign | ast.AnnAssign | ast.FunctionDef)
+        if imports_shared(node):
+            rule = "a shared file imports no other; define the names here, or import both files in the component."
+            faults.add(rule, place(file, lines, node.lineno, node.col_offset))
+        elif not (text or allowed):
+            rule = "a shared file holds imports, constants, declarations and functions."
+            faults.add(rule, place(file, lines, node.lineno, node.col_offset))
+    _refuse_foreign(tree, file, lines, faults)
+    faults.raise_if_any(InvalidComponent)
+    return tree
+
+
+def _python(source: str, file: str) -> ast.Module:
+    """The syntax tree of a text. Errors: InvalidComponent."""
+    lines = source.split("\n")
+    try:
+        return ast.parse(source, file)
+    except (SyntaxError, ValueError) as error:
+        line, column = getattr(error, "lineno", 0) or 0, getattr(error, "offset", 0) or 0
+        text = lines[line - 1] if 0 < line <= len(lines) else ""
+        said = getattr(error, "msg", str(error))
+        mark = Mark(file, line, max(column, 1) if line else 0, text)
+        raise InvalidComponent(Fault(f"this is not Python: {said}.", mark)) from None
+
+
+def _refuse_foreign(tree: ast.Module, file: str, lines: Sequence[str], faults: Faults) -> None:
+    """Add a fault for each unknown field of a declaration, each import and each name that may not be used."""
     for message, wrong in unknown_fields(tree):
         faults.add(message, place(file, lines, wrong.lineno, wrong.col_offset))
     for inner in ast.walk(tree):
@@ -123,8 +158,6 @@ def parse(source: str, file: str) -> ast.Module:
         elif word := _forbidden(inner):
             mark = place(file, lines, getattr(inner, "lineno", 1), getattr(inner, "col_offset", 0))
             faults.add(f"{word} may not be used in a component file.", mark)
-    faults.raise_if_any(InvalidComponent)
-    return tree
 
 
 def _forbidden(node: ast.AST) -> str:
@@ -146,15 +179,24 @@ def _forbidden(node: ast.AST) -> str:
 def _may_import(node: ast.Import | ast.ImportFrom) -> bool:
     if isinstance(node, ast.Import):
         return all(alias.name == "math" and alias.asname is None for alias in node.names)
+    if imports_shared(node):
+        return all(alias.name.isidentifier() and alias.asname is None for alias in node.names)
     public = all(not alias.name.startswith("_") and not (alias.asname or "").startswith("__") for alias in node.names)
     return node.level == 0 and public and node.module in ("gaitsim.component", "__future__")
 
 
 def check_names(
-    tree: ast.Module, declarations: Mapping[str, Declaration], file: str, lines: Sequence[str]
+    tree: ast.Module,
+    declarations: Mapping[str, Declaration],
+    file: str,
+    lines: Sequence[str],
+    shared: Sequence[ast.Module] = (),
 ) -> list[Fault]:
-    """All mistakes of a parsed file in names, signatures, assignments and declarations."""
-    check = _Check(tree, declarations, file, lines)
+    """All mistakes of a parsed file in names, signatures, assignments and declarations.
+
+    shared: The syntax trees of the files that it imports from.
+    """
+    check = _Check(tree, declarations, file, lines, used_functions(tree, shared))
     check.declared()
     for name, function in check.functions.items():
         if not check.signature(name, function):
@@ -172,12 +214,18 @@ def check_names(
 
 class _Check:
     def __init__(
-        self, tree: ast.Module, known: Mapping[str, Declaration], file: str, lines: Sequence[str]
+        self,
+        tree: ast.Module,
+        known: Mapping[str, Declaration],
+        file: str,
+        lines: Sequence[str],
+        helpers: Mapping[str, ast.FunctionDef],
     ) -> None:
         self.known, self.file, self.lines, self.faults = known, file, lines, Faults()
         self.functions = class_functions(tree)
-        self.helpers = {node.name: node for node in tree.body if isinstance(node, ast.FunctionDef)}
-        constants = [n for n in tree.body if isinstance(n, ast.Import | ast.Assign | ast.AnnAssign)]
+        self.helpers = helpers
+        plain = ast.Import | ast.Assign | ast.AnnAssign
+        constants = [n for n in tree.body if isinstance(n, plain) or imports_shared(n)]
         self.globals = {name for node in constants for name in _bound(node)}
         self.globals |= {node.name for node in tree.body if isinstance(node, ast.FunctionDef)}
         self.places: dict[str, ast.AST] = {}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import ast
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 
 from gaitsim.component import Declaration, Input, Output
 from gaitsim.components.checks.check import SIGNATURES, class_functions
@@ -13,7 +13,7 @@ _NONE: Carried = frozenset()
 
 
 def output_dependencies(
-    tree: ast.Module, declarations: Mapping[str, Declaration]
+    tree: ast.Module, declarations: Mapping[str, Declaration], shared: Sequence[ast.Module] = ()
 ) -> dict[str, Carried]:
     """For each output the inputs from which output() computes it; a superset where in doubt.
 
@@ -24,7 +24,7 @@ def output_dependencies(
     function = class_functions(tree).get("output")
     if function is None:
         return dict.fromkeys(outputs, _NONE)
-    helpers = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
+    helpers = [node for file in (tree, *shared) for node in file.body if isinstance(node, ast.FunctionDef)]
     flow = _Flow(function, declarations, helpers)
     return {name: flow.known.get(f"y.{name}", _NONE) for name in outputs}
 
