@@ -24,7 +24,8 @@ from gaitsim.component import (
 )
 from gaitsim.components.checks.build import build_faults, placed
 from gaitsim.components.checks.curve import curve_faults
-from gaitsim.components.checks.declaration import field_faults, unknown_fields
+from gaitsim.components.checks.declaration import field_faults
+from gaitsim.components.checks.foreign import FORBIDDEN, foreign
 from gaitsim.components.checks.start_range import range_faults
 from gaitsim.components.shared import imports_shared, used_functions
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark, did_you_mean, nearest
@@ -41,11 +42,6 @@ _SAID = {Parameter: "a parameter", Input: "an input", State: "a state", Output: 
 _SAID |= {Metric: "a metric", Points: "a list of points", Option: "an option", Series: "a series"}
 _READ_ONLY = {"p": "parameters are read only.", "u": "inputs are read only."}
 _WRITERS = {"x": ("start", "update"), "y": ("output",), "m": ("finish",)}
-_FORBIDDEN = {"open", "exec", "eval", "compile", "input", "getattr", "setattr", "delattr", "vars", "globals", "locals"}
-_FORBIDDEN |= {"dir", "type", "object", "super", "memoryview", "help"}
-# Attributes that lead from a generator, a function or an array to other code, or to files.
-_INSIDES = {"gi_frame", "gi_code", "f_back", "f_builtins", "f_globals", "f_locals", "tb_frame", "tb_next", "ctypes"}
-_INSIDES |= {"tofile", "dump", "with_traceback", "mro"}
 # numba compiles these; breakpoint only runs in plain Python, which is what it is for.
 _BUILTINS = {"abs", "min", "max", "range", "int", "float", "len", "bool", "round", "print"}
 _BUILTINS |= {"breakpoint", "ValueError", "ArithmeticError", "OverflowError", "RuntimeError"}
@@ -104,7 +100,8 @@ def parse(source: str, file: str) -> ast.Module:
             "a component file holds one class that derives from Component; this has none.",
             Mark(file),
         )
-    _refuse_foreign(tree, file, lines, faults)
+    for message, wrong in foreign(tree):
+        faults.add(message, place(file, lines, getattr(wrong, "lineno", 1), getattr(wrong, "col_offset", 0)))
     faults.raise_if_any(InvalidComponent)
     return tree
 
@@ -125,7 +122,8 @@ def parse_shared(source: str, file: str) -> ast.Module:
         elif not (text or allowed):
             rule = "a shared file holds imports, constants, declarations and functions."
             faults.add(rule, place(file, lines, node.lineno, node.col_offset))
-    _refuse_foreign(tree, file, lines, faults)
+    for message, wrong in foreign(tree):
+        faults.add(message, place(file, lines, getattr(wrong, "lineno", 1), getattr(wrong, "col_offset", 0)))
     faults.raise_if_any(InvalidComponent)
     return tree
 
@@ -141,48 +139,6 @@ def _python(source: str, file: str) -> ast.Module:
         said = getattr(error, "msg", str(error))
         mark = Mark(file, line, max(column, 1) if line else 0, text)
         raise InvalidComponent(Fault(f"this is not Python: {said}.", mark)) from None
-
-
-def _refuse_foreign(tree: ast.Module, file: str, lines: Sequence[str], faults: Faults) -> None:
-    """Add a fault for each unknown field of a declaration, each import and each name that may not be used."""
-    for message, wrong in unknown_fields(tree):
-        faults.add(message, place(file, lines, wrong.lineno, wrong.col_offset))
-    for inner in ast.walk(tree):
-        if isinstance(inner, ast.Import | ast.ImportFrom) and not _may_import(inner):
-            mark = place(file, lines, inner.lineno, inner.col_offset)
-            faults.add(
-                "a component file imports math and gaitsim.component, nothing else; "
-                "write `import math` or `from gaitsim.component import ...`.",
-                mark,
-            )
-        elif word := _forbidden(inner):
-            mark = place(file, lines, getattr(inner, "lineno", 1), getattr(inner, "col_offset", 0))
-            faults.add(f"{word} may not be used in a component file.", mark)
-
-
-def _forbidden(node: ast.AST) -> str:
-    """What a node names that a component file has no use for: ways to files, and to what Python is made of."""
-    if isinstance(node, ast.Name) and node.id in _FORBIDDEN:
-        return node.id
-    if isinstance(node, ast.Attribute) and node.attr in _INSIDES:
-        return f".{node.attr}"
-    if isinstance(node, ast.Import | ast.ImportFrom):
-        return ""
-    for value in (value for _, value in ast.iter_fields(node)):
-        for word in value if isinstance(value, list) else (value,):
-            # Strings of the syntax tree are names, but for those of constants.
-            if isinstance(word, str) and word.startswith("__") and not isinstance(node, ast.Constant):
-                return word
-    return ""
-
-
-def _may_import(node: ast.Import | ast.ImportFrom) -> bool:
-    if isinstance(node, ast.Import):
-        return all(alias.name == "math" and alias.asname is None for alias in node.names)
-    if imports_shared(node):
-        return all(alias.name.isidentifier() and alias.asname is None for alias in node.names)
-    public = all(not alias.name.startswith("_") and not (alias.asname or "").startswith("__") for alias in node.names)
-    return node.level == 0 and public and node.module in ("gaitsim.component", "__future__")
 
 
 def check_names(
@@ -318,7 +274,7 @@ class _Check:
         allowed = ({*dir(builtins), Refused.__name__} if plain else _BUILTINS) | own
         body = [node for statement in function.body for node in ast.walk(statement)]
         for node in body:
-            if isinstance(node, ast.Name) and node.id not in allowed | _FORBIDDEN:
+            if isinstance(node, ast.Name) and node.id not in allowed | FORBIDDEN:
                 hint = self.meant(node.id) or did_you_mean(node.id, allowed)
                 if not hint.startswith("Did you mean "):
                     hint = did_you_mean(node.id, own)
