@@ -17,8 +17,8 @@ from typing import Any
 
 from gaitsim.cache import keep, kept
 from gaitsim.compiler import machine
+from gaitsim.components.checks.shared import builtins_with
 from gaitsim.components.primitive import Primitive
-from gaitsim.components.shared import builtins_with
 from gaitsim.errors import Fault, InvalidComponent, Mark
 
 START, OUTPUT, UPDATE = 0, 1, 2

@@ -21,8 +21,8 @@ from gaitsim.compiler import machine
 from gaitsim.compiler.kernel import Kernel, kernel_of
 from gaitsim.compiler.native import CLOCK, TICKS
 from gaitsim.compiler.plan import Plan
+from gaitsim.components.checks.shared import Shared
 from gaitsim.components.primitive import Primitive
-from gaitsim.components.shared import Shared
 
 # Below so many, a helper would be done importing numba after all is compiled.
 _WORTH_A_HELPER = 4

@@ -6,10 +6,10 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from gaitsim.components.checks.shared import Shared, imported_names
 from gaitsim.components.composite import ComponentFile, load_composite
 from gaitsim.components.contract import kind_faults
 from gaitsim.components.load import as_lines, load_primitive
-from gaitsim.components.shared import Shared, imported_names
 from gaitsim.components.table import Table, load_table
 from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean, nearest
 from gaitsim.text.document import text_of

@@ -14,9 +14,9 @@ from gaitsim.component import Component, Input, Link, Output, Parameter, Part
 from gaitsim.components.checks.audited import remember, sound_dependencies
 from gaitsim.components.checks.check import check_names, declaration_marks, parse, parse_shared, place
 from gaitsim.components.checks.dependency import output_dependencies
+from gaitsim.components.checks.shared import Shared, builtins_with, import_faults, whole
 from gaitsim.components.ieee import ieee_math
 from gaitsim.components.primitive import Primitive
-from gaitsim.components.shared import Shared, builtins_with, import_faults, whole
 from gaitsim.errors import Fault, InvalidComponent, Mark, did_you_mean
 from gaitsim.text.expression import BadExpression, parse_expression
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from gaitsim import component as c
-from gaitsim.components.shared import Shared, whole
+from gaitsim.components.checks.shared import Shared, whole
 from gaitsim.units import parse_unit, scaled
 
 D = TypeVar("D")

@@ -9,9 +9,9 @@ import pytest
 
 from gaitsim.components import load
 from gaitsim.components.checks import audit, audited
+from gaitsim.components.checks.shared import Shared
 from gaitsim.components.find import Library, shipped_folder
 from gaitsim.components.primitive import Primitive
-from gaitsim.components.shared import Shared
 
 MUSCLE = shipped_folder() / "muscle" / "geyer2003.py"
 

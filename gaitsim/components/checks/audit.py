@@ -20,7 +20,7 @@ from typing import Any
 from gaitsim.component import Component, Input, Metric, Output, Parameter, Series, State
 from gaitsim.components.checks.check import SIGNATURES, class_functions, parse, parse_shared, place
 from gaitsim.components.checks.declaration import unit_rule
-from gaitsim.components.shared import Shared, builtins_with
+from gaitsim.components.checks.shared import Shared, builtins_with
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark
 from gaitsim.units import Dimension, Unit, UnknownUnit, parse_unit
 

@@ -26,8 +26,8 @@ from gaitsim.components.checks.build import build_faults, placed
 from gaitsim.components.checks.curve import curve_faults
 from gaitsim.components.checks.declaration import field_faults
 from gaitsim.components.checks.foreign import FORBIDDEN, foreign
+from gaitsim.components.checks.shared import imports_shared, used_functions
 from gaitsim.components.checks.start_range import range_faults
-from gaitsim.components.shared import imports_shared, used_functions
 from gaitsim.errors import Fault, Faults, InvalidComponent, Mark, did_you_mean, nearest
 
 SIGNATURES: Mapping[str, tuple[str, ...]] = {

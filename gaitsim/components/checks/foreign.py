@@ -6,7 +6,7 @@ import ast
 from collections.abc import Iterator
 
 from gaitsim.components.checks.declaration import unknown_fields
-from gaitsim.components.shared import imports_shared
+from gaitsim.components.checks.shared import imports_shared
 
 FORBIDDEN = {"open", "exec", "eval", "compile", "input", "getattr", "setattr", "delattr", "vars", "globals", "locals"}
 FORBIDDEN |= {"dir", "type", "object", "super", "memoryview", "help"}
