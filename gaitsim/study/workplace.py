@@ -46,16 +46,40 @@ class Workplace:
 
         Errors: ClusterError.
         """
-        if self.cluster:
-            from gaitsim.cluster.connect import remote_client
-            from gaitsim.cluster.parallel import Parallel
+        backend = next(backend for backend in BACKENDS if backend.asked(self))
+        return backend.make(self, bundle, mode, say)
 
-            return Parallel(remote_client(self.scheduler, self.scheduler_file, say), bundle, mode)
-        if self.workers == 0:
-            from gaitsim.cluster.evaluate import Serial, runner_of
 
-            return Serial(runner_of(bundle, mode))
-        from gaitsim.cluster.local import Local
-        from gaitsim.simulation.threads import cores
+@dataclass(frozen=True)
+class Backend:
+    """A way to evaluate candidates: whether a workplace asks for it, and what makes its evaluator."""
 
-        return Local(bundle, mode, self.workers or cores())
+    asked: Callable[[Workplace], bool]
+    make: Callable[[Workplace, Bundle, Mode, Callable[[str], None]], Evaluator]
+
+
+def _dask(place: Workplace, bundle: Bundle, mode: Mode, say: Callable[[str], None]) -> Evaluator:
+    from gaitsim.cluster.connect import remote_client
+    from gaitsim.cluster.parallel import Parallel
+
+    return Parallel(remote_client(place.scheduler, place.scheduler_file, say), bundle, mode)
+
+
+def _this_process(_: Workplace, bundle: Bundle, mode: Mode, __: Callable[[str], None]) -> Evaluator:
+    from gaitsim.cluster.evaluate import Serial, runner_of
+
+    return Serial(runner_of(bundle, mode))
+
+
+def _processes(place: Workplace, bundle: Bundle, mode: Mode, _: Callable[[str], None]) -> Evaluator:
+    from gaitsim.cluster.local import Local
+    from gaitsim.simulation.threads import cores
+
+    return Local(bundle, mode, place.workers or cores())
+
+
+BACKENDS = (  # the first that is asked for
+    Backend(lambda place: place.cluster, _dask),
+    Backend(lambda place: place.workers == 0, _this_process),
+    Backend(lambda _: True, _processes),
+)
