@@ -14,7 +14,7 @@ from gaitsim.analysis.gait.legs import two_legs
 from gaitsim.analysis.replays.cycles import Floats, arriving, shade_stance, shown_part, thinned
 from gaitsim.analysis.replays.reference import return_map_of
 from gaitsim.analysis.replays.replay import Replay
-from gaitsim.analysis.signals.return_map import FixedPoint, fixed_point
+from gaitsim.analysis.signals.return_map import FixedPoint, fixed_between, fixed_point
 from gaitsim.model import Free, Model, Part
 from gaitsim.simulation.run import Simulator
 from gaitsim.units import parse_unit
@@ -110,11 +110,7 @@ class Dropped:
         """Where the map meets the diagonal, with its slope there, between neighbouring starts."""
         known = np.isfinite(self.after)
         x, above = self.before[known], (self.after - self.before)[known]
-        found = []
-        for i in np.flatnonzero(above[:-1] * above[1:] < 0):
-            rise = float((above[i + 1] - above[i]) / (x[i + 1] - x[i]))
-            found.append(FixedPoint(float(x[i] - above[i] / rise), 1 + rise))
-        return found
+        return [fixed_between(x, above, int(i)) for i in np.flatnonzero(above[:-1] * above[1:] < 0)]
 
 
 def dropped(replay: Replay, count: int = _STARTS) -> Dropped | None:

@@ -83,7 +83,11 @@ def fixed_point(events: Floats) -> FixedPoint | None:
     crossing = crossing[np.diff(x)[crossing] > 0]
     if not crossing.size:
         return None
-    i = int(crossing[0])
+    return fixed_between(x, above, int(crossing[0]))
+
+
+def fixed_between(x: Floats, above: Floats, i: int) -> FixedPoint:
+    """Where the line through points i and i + 1 of a map meets the diagonal; above: their heights over it."""
     rise = float((above[i + 1] - above[i]) / (x[i + 1] - x[i]))
     return FixedPoint(float(x[i] - above[i] / rise), 1 + rise)
 
