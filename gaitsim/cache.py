@@ -10,11 +10,11 @@ import hashlib
 import logging
 import os
 import tempfile
-from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
 from gaitsim.folders import cache_folder
+from gaitsim.whole import PARTIAL, whole
 
 _DIGEST_SIZE = hashlib.sha256().digest_size
 _REMEDY = "so nothing is kept and each run compiles anew; set GAITSIM_CACHE to a folder that can be written"
@@ -47,15 +47,9 @@ def keep(kind: str, key: str, data: bytes) -> None:
         return
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
-        descriptor, draft = tempfile.mkstemp(dir=path.parent, prefix=f"{key}.partial.")
-        try:
-            with os.fdopen(descriptor, "wb") as file:
-                file.write(hashlib.sha256(data).digest() + data)
-            Path(draft).replace(path)
-        except OSError:
-            with suppress(OSError):
-                Path(draft).unlink()
-            raise
+        descriptor, draft = tempfile.mkstemp(dir=path.parent, prefix=f"{key}{PARTIAL}.")
+        with whole(path, Path(draft)), os.fdopen(descriptor, "wb") as file:
+            file.write(hashlib.sha256(data).digest() + data)
     except OSError as error:
         _tell_unusable(error)
 

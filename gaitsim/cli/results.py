@@ -9,6 +9,7 @@ import typer
 
 from gaitsim.cli import console
 from gaitsim.cli.options import RESULTS, Json, Trust
+from gaitsim.whole import PARTIAL
 
 app = typer.Typer(help="List, show and verify results.", no_args_is_help=True, rich_markup_mode=None)
 _FAILED = 4
@@ -25,7 +26,7 @@ def list_results(
     Example: gaitsim results list
     """
     made = [path.parent for path in sorted(folder.glob("*/manifest.json"))]
-    rows = [_summary(path) for path in made if path.suffix != ".partial"]
+    rows = [_summary(path) for path in made if path.suffix != PARTIAL]
     rows.sort(key=lambda row: str(row["created"]))
     if json:
         console.give_json({"results": rows})

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from gaitsim.model import Signal
 from gaitsim.simulation.outcome import Trajectory
+from gaitsim.whole import whole
 
 if TYPE_CHECKING:
     import xarray
@@ -34,10 +35,5 @@ def labelled(trajectory: Trajectory, signals: Sequence[Signal], about: Mapping[s
 def write_netcdf(path: Path, data: xarray.Dataset) -> None:
     """Write a dataset as netCDF-4. Errors: OSError."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    draft = path.with_name(f"{path.name}.partial")
-    try:
+    with whole(path) as draft:
         data.to_netcdf(draft, engine="h5netcdf")
-        draft.replace(path)
-    except OSError:
-        draft.unlink(missing_ok=True)
-        raise

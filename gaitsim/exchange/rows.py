@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import IO
 
 from gaitsim.simulation.outcome import Trajectory
+from gaitsim.whole import whole
 
 _BLOCK = 10_000  # rows that are text at a time
 
@@ -14,15 +15,9 @@ _BLOCK = 10_000  # rows that are text at a time
 def write_table(path: Path, head: str, trajectory: Trajectory, separator: str) -> None:
     """A heading, then a row for each instant: time first. Errors: OSError, with nothing left behind."""
     path.parent.mkdir(parents=True, exist_ok=True)
-    draft = path.with_name(f"{path.name}.partial")
-    try:
-        with draft.open("w", encoding="utf-8", newline="\n") as file:
-            file.write(head)
-            _write_rows(file, trajectory, separator)
-        draft.replace(path)
-    except OSError:
-        draft.unlink(missing_ok=True)
-        raise
+    with whole(path) as draft, draft.open("w", encoding="utf-8", newline="\n") as file:
+        file.write(head)
+        _write_rows(file, trajectory, separator)
 
 
 def _write_rows(file: IO[str], trajectory: Trajectory, separator: str) -> None:

@@ -7,13 +7,13 @@ torn last line is cut. No more than a generation is held in memory.
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import IO
 
 from gaitsim.errors import Fault, GaitsimError, Mark
 from gaitsim.optimization.evaluation import Candidate, Evaluation, evaluation_of, is_whole
+from gaitsim.whole import onto_disk, whole
 
 _MOVE = "restore it from a copy, or start a new search with --from"
 _WHOLE, _ARRIVING = "evaluations.jsonl", "arriving.jsonl"
@@ -178,20 +178,17 @@ def _place(evaluation: Evaluation) -> tuple[int, int]:
 
 def _replace(path: Path, evaluations: Iterable[Evaluation]) -> None:
     """Write a journal whole: what stood there stays until the new one is on the disk."""
-    draft = path.with_name(f"{path.name}.partial")
-    with draft.open("w", encoding="utf-8") as file:
+    with whole(path) as draft, draft.open("w", encoding="utf-8") as file:
         _write(file, evaluations)
-    draft.replace(path)
 
 
 def _cut(path: Path, size: int) -> None:
     """Leave the beginning of a file, and make sure that this is on the disk."""
     with path.open("r+b") as file:
         file.truncate(size)
-        os.fsync(file.fileno())
+        onto_disk(file)
 
 
 def _write(file: IO[str], evaluations: Iterable[Evaluation]) -> None:
     file.writelines(evaluation.line() + "\n" for evaluation in evaluations)
-    file.flush()
-    os.fsync(file.fileno())
+    onto_disk(file)

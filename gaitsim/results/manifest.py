@@ -16,6 +16,7 @@ from gaitsim.results.bundle import BadResult as BadResult
 from gaitsim.results.bundle import Bundle, read_bundle
 from gaitsim.results.lock import state_of
 from gaitsim.results.provenance import provenance, versions
+from gaitsim.whole import write_whole
 
 _NAME = "manifest.json"
 FORMAT = 2  # of what a result's files say; in 1, parameters.csv and model.yaml have SI numbers beside other units
@@ -47,13 +48,7 @@ def format_of(manifest: Map[str, Any]) -> int:
 
 def write_manifest(folder: Path, manifest: dict[str, Any]) -> None:
     """Replace the manifest as a whole. Errors: OSError."""
-    draft = folder / f"{_NAME}.partial"
-    try:
-        draft.write_text(json.dumps(manifest, indent=2) + "\n", encoding="utf-8")
-        draft.replace(folder / _NAME)
-    except OSError:
-        draft.unlink(missing_ok=True)
-        raise
+    write_whole(folder / _NAME, json.dumps(manifest, indent=2) + "\n")
 
 
 class _Known(BaseModel):

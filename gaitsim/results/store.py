@@ -27,6 +27,7 @@ from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.text.document import dump
 from gaitsim.units import with_unit
+from gaitsim.whole import draft_of
 
 
 class CannotSave(GaitsimError):
@@ -46,7 +47,7 @@ def create_result(
     try:
         root.mkdir(parents=True, exist_ok=True)
         target = _free_name(root, bundle.name)
-        draft = target.with_name(f"{target.name}.partial")
+        draft = draft_of(target)
         draft.mkdir()
         bundle.write(draft)
         files = {"model.yaml": dump(model_data(model)), "model.xml": xml, **more}
@@ -87,7 +88,7 @@ def row_data(settings: Map[str, str], outcome: Outcome) -> dict[str, Any]:
 def _free_name(root: Path, name: str) -> Path:
     while True:
         target = root / f"{date.today().isoformat()}-{name}-{secrets.token_hex(2)}"
-        if not target.exists() and not target.with_name(f"{target.name}.partial").exists():
+        if not target.exists() and not draft_of(target).exists():
             return target
 
 

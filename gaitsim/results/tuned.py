@@ -13,6 +13,7 @@ from gaitsim.optimization.problem import Problem, Variable
 from gaitsim.text.document import Mapping, Node, Scalar, dump, read
 from gaitsim.text.quantity import mismatch
 from gaitsim.units import Quantity, Unit, UnknownUnit, parse_quantity
+from gaitsim.whole import write_whole
 
 _ABOUT = "Written by gaitsim optimize --adopt; not by hand."
 _FORMAT = 2  # a file that says none has numbers in SI, whatever unit stands beside them
@@ -40,9 +41,7 @@ def write_tuned(spec: Path, result: str, score: float, values: Map[str, float], 
     path = tuned_path(spec)
     said = {a: v if units[a].text == "1" else units[a].exactly(v) for a, v in values.items()}
     text = dump({"about": _ABOUT, "format": _FORMAT, "result": result, "score": score, "values": said})
-    draft = path.with_name(f"{path.name}.partial")
-    draft.write_text(text, encoding="utf-8")
-    draft.replace(path)
+    write_whole(path, text)
     return path
 
 

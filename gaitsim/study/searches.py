@@ -29,6 +29,7 @@ from gaitsim.study.opening import Opening, started_from
 from gaitsim.study.source import Source
 from gaitsim.study.starts import Starts
 from gaitsim.study.tuning import Tuning
+from gaitsim.whole import PARTIAL
 
 _SMOKE = {"population": 4, "generations": 2}
 _MOVE = "make room or rights there"
@@ -196,7 +197,7 @@ def _newest(spec: Path, root: Path) -> Path:
     for path in root.glob(f"*-{spec.stem}-*/manifest.json"):
         try:
             manifest = recorded_manifest(path.parent)
-            if manifest["kind"] == "optimize" and manifest["name"] == spec.stem and path.parent.suffix != ".partial":
+            if manifest["kind"] == "optimize" and manifest["name"] == spec.stem and path.parent.suffix != PARTIAL:
                 place = (manifest["created"], path.stat().st_mtime, path.parent)
                 (trials if manifest.get("smoke") else found).append(place)
         except (OSError, BadResult):

@@ -7,6 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gaitsim.whole import whole
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -34,12 +36,7 @@ def save(drawings: Iterable[Drawing], folder: Path, formats: Sequence[str] = ("p
     for drawing in drawings:
         for ending in formats:
             path = folder / f"{drawing.name}.{ending}"
-            draft = path.with_name(f"{path.name}.partial")
-            try:
+            with whole(path) as draft:
                 drawing.figure.savefig(draft, format=ending)
-                draft.replace(path)
-            except OSError:
-                draft.unlink(missing_ok=True)
-                raise
             paths.append(path)
     return paths

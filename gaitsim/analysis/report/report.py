@@ -16,6 +16,7 @@ from gaitsim.analysis.gait.numbers import gait_table, norms_table
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.report import facts
 from gaitsim.analysis.report.figures import missing
+from gaitsim.whole import write_whole
 
 if TYPE_CHECKING:
     from jinja2 import Template
@@ -67,14 +68,8 @@ def write(
         pictures=[_picture(drawing) for drawing in drawings],
         film=None if video is None else _film(video, path.parent),
     )
-    draft = path.with_name(f"{path.name}.partial")
     path.parent.mkdir(parents=True, exist_ok=True)
-    try:
-        draft.write_text(page, encoding="utf-8")
-        draft.replace(path)
-    except OSError:
-        draft.unlink(missing_ok=True)
-        raise
+    write_whole(path, page)
     return path
 
 
