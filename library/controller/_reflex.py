@@ -1,4 +1,4 @@
-"""What reflexes share: the limits of their stimulation, and the gate behind them."""
+"""Declarations and functions that reflexes share: the clamp and the gate of their stimulation."""
 
 from gaitsim.component import Parameter
 

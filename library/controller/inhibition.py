@@ -2,7 +2,7 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter
 
 
 class Inhibition(Component):
-    """What a delayed signal takes away from a muscle's stimulation: S = -G (P - P_off), gated.
+    """Inhibition of a muscle by a delayed signal: S = -G (P - P_off), gated.
 
     In Geyer & Herr (2010): the soleus' force from the tibialis anterior, G_SOLTA F_SOL; the length
     of the hamstrings from the hip flexors, G_HAMHFL (l_HAM - l_off,HAM); the other leg's load from

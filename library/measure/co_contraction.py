@@ -6,9 +6,9 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 class CoContraction(Component):
     """How much two groups of muscles pull against one another: the mean square of the smaller of their moments."""
 
-    unit = Parameter("N m", "What is called one unit.", default=1, bounds=(1e-9, 1e9), source="definition: SI")
+    unit = Parameter("N m", "Value that counts as 1.", default=1, bounds=(1e-9, 1e9), source="definition: SI")
     settle = Parameter(
-        "s", "What is earlier does not count.", default=0, bounds=(0, 1e3), source="definition: the whole run"
+        "s", "Samples before this time are ignored.", default=0, bounds=(0, 1e3), source="definition: the whole run"
     )
     opening = Input(
         "N m", "Moments that make the angle grow; their sum counts where positive.", sums=True

@@ -10,7 +10,7 @@ class LimitTorque(Component):
     """
 
     settle = Parameter(
-        "s", "What is earlier does not count.", default=1, bounds=(0, 1e3), source="definition: the first stride"
+        "s", "Samples before this time are ignored.", default=1, bounds=(0, 1e3), source="definition: the first stride"
     )
     torque = Input("N m", "Torque of a joint's stops, such as {from: knee.stop}.")
 

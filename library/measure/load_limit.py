@@ -8,7 +8,7 @@ class LoadLimit(Component):
 
     limit = Parameter("1", "Force of one foot that is allowed, in body weights.", bounds=(0, 100))
     settle = Parameter(
-        "s", "What is earlier does not count.", default=1, bounds=(0, 1e3), source="definition: the first stride"
+        "s", "Samples before this time are ignored.", default=1, bounds=(0, 1e3), source="definition: the first stride"
     )
     left = Input("1", "Vertical force on the left foot in body weights.")
     right = Input("1", "Vertical force on the right foot in body weights.", default=0)

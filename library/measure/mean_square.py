@@ -6,7 +6,7 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 class MeanSquare(Component):
     """The mean over time of a signal's square, or of the square of its positive or its negative part."""
 
-    unit = Parameter("*", "What is called one unit.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
+    unit = Parameter("*", "Value that counts as 1.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
     positive = Parameter(
         "1", "1 if the positive part counts, 0 if not.", default=1, bounds=(0, 1), source="definition: all counts"
     )
@@ -14,7 +14,7 @@ class MeanSquare(Component):
         "1", "1 if the negative part counts, 0 if not.", default=1, bounds=(0, 1), source="definition: all counts"
     )
     settle = Parameter(
-        "s", "What is earlier does not count.", default=0, bounds=(0, 1e3), source="definition: the whole run"
+        "s", "Samples before this time are ignored.", default=0, bounds=(0, 1e3), source="definition: the whole run"
     )
     signal = Input("*", "Any signal.")
 

@@ -4,7 +4,7 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class Speed(Component):
-    """Mean forward speed after a time in which the gait settles, and the distance covered in all."""
+    """Mean forward speed after a time in which the gait settles, and the total distance covered."""
 
     settle = Parameter("s", "The mean begins here.", default=2, bounds=(0, 1e3), source="definition: two strides")
     position = Input("m", "Forward position, such as that of the pelvis.")

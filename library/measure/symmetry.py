@@ -10,7 +10,7 @@ class Symmetry(Component):
     """
 
     settle = Parameter(
-        "s", "What is earlier does not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
+        "s", "Samples before this time are ignored.", default=2, bounds=(0, 1e3), source="definition: two strides"
     )
     left = Input("*", "The signal of the left leg.")
     right = Input("*", "The same of the right leg.")

@@ -7,7 +7,7 @@ class Total(Component):
     """The sum of all signals that are sent here, such as the effort of every muscle: its mean over time and peak."""
 
     settle = Parameter(
-        "s", "What is earlier does not count.", default=0, bounds=(0, 1e3), source="definition: the whole run"
+        "s", "Samples before this time are ignored.", default=0, bounds=(0, 1e3), source="definition: the whole run"
     )
     signal = Input("*", "What is summed; senders write to: this.signal.", sums=True)
 

@@ -8,10 +8,16 @@ AEROBIC = Parameter(
 SLOW_HEAT = Parameter(
     "W/kg", "Activation and maintenance heat of all fibers.", default=25, bounds=(0, 1000), source="umberger2003"
 )
-FAST_HEAT = Parameter("W/kg", "What fast fibers add to it.", default=128, bounds=(0, 1000), source="umberger2003")
+FAST_HEAT = Parameter(
+    "W/kg",
+    "Additional activation and maintenance heat of fast fibers.",
+    default=128,
+    bounds=(0, 1000),
+    source="umberger2003",
+)
 SLOW_SHORTENING_HEAT = Parameter(
     "W/kg",
-    "Shortening heat of slow fibers at their v_max, and their most.",
+    "Largest shortening heat of slow fibers, reached at their v_max.",
     default=100,
     bounds=(0, 1000),
     source="umberger2003",

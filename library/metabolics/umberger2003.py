@@ -46,8 +46,8 @@ class Umberger2003(Component):
     force = Input("N", "Force of the muscle-tendon unit.")
 
     power = Output("W", "Metabolic power of the muscle.")
-    heat = Output("W", "What of it is heat.")
-    work = Output("W", "What of it is mechanical work; negative while the fiber lengthens.")
+    heat = Output("W", "Rate of heat production.")
+    work = Output("W", "Mechanical power of the fiber; negative while it lengthens.")
 
     @staticmethod
     def output(p, u, x, y):

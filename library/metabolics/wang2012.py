@@ -44,8 +44,8 @@ class Wang2012(Component):
     force = Input("N", "Force of the muscle-tendon unit.")
 
     power = Output("W", "Metabolic power of the muscle.")
-    heat = Output("W", "What of it is heat.")
-    work = Output("W", "What of it is mechanical work.")
+    heat = Output("W", "Rate of heat production.")
+    work = Output("W", "Mechanical power of the fiber; 0 while it lengthens.")
 
     @staticmethod
     def output(p, u, x, y):

@@ -1,4 +1,4 @@
-"""What Hill-type muscle-tendon units share: their path, their inner parts, and the step that was measured."""
+"""Declarations and functions that Hill-type muscle-tendon units share."""
 
 from gaitsim.component import Input, Parameter, Part
 
@@ -50,5 +50,5 @@ PATH_LENGTH = Input(
 
 
 def look_ahead(stiffness):
-    """Where within a step the balance holds: half way if it changes slowly, at the end the faster it does."""
+    """Instant within a step at which the force balance is solved: 1/2 for slow changes, towards 1 for fast ones."""
     return (3 + stiffness) / (6 + stiffness)

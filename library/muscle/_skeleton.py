@@ -21,7 +21,7 @@ class Skeleton(Component):
 
     max_isometric_force = Parameter("N", "F_max.", bounds=(1, 1e6))
     optimal_fiber_length = Parameter("m", "l_opt.", bounds=(1e-3, 1))
-    tendon_slack_length = Parameter("m", "Length of the tendon, which does not yield.", bounds=(1e-3, 2))
+    tendon_slack_length = Parameter("m", "Length of the rigid tendon.", bounds=(1e-3, 2))
     max_contraction_velocity = Parameter(
         "1/s", "v_max in optimal fiber lengths per second.", default=12, bounds=(1, 50), source="geyer2003"
     )
@@ -80,10 +80,10 @@ class Skeleton(Component):
     activation = Output("1", "Activation A.")
     fiber_length = Output("m", "Length of the fiber.")
     normalized_fiber_length = Output(
-        "1", "The same in optimal lengths.", usual=(0.4, 1.6), possible=(0, 2.5)
+        "1", "Length of the fiber in optimal lengths.", usual=(0.4, 1.6), possible=(0, 2.5)
     )
     fiber_velocity = Output("m/s", "Rate of the fiber's length, shortening negative.")
-    normalized_fiber_velocity = Output("1", "The same in v_max.")
+    normalized_fiber_velocity = Output("1", "Velocity of the fiber in v_max.")
     fiber_force = Output("N", "Active force of the fiber, A F_max f_l f_v.")
     normalized_isometric_force = Output("1", "f_l: active force in F_max, at rest and full activation.")
     elastic_energy = Output("J", "Elastic energy: a rigid tendon stores none.")

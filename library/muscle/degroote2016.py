@@ -9,7 +9,7 @@ SLOWEST, FASTEST = force_velocity(-1), force_velocity(1)
 
 
 def velocity_from_force(ratio):
-    """Inverse of f_v. Beyond v_max it goes on with slope 0.01, as numbers need and nature does not."""
+    """Inverse of f_v. Beyond v_max the inverse continues with slope 0.01, for numerical reasons only."""
     inside = min(FASTEST, max(SLOWEST, ratio))
     return (math.sinh((inside - D_4) / D_1) - D_3) / D_2 + 0.01 * (ratio - inside)
 
@@ -25,7 +25,7 @@ def tendon_force(strain, stiffness):
 
 
 def force_and_slope(velocity):
-    """f_v and its slope, the whole of which `velocity_from_force` inverts."""
+    """f_v and its slope. `velocity_from_force` is the inverse over the whole range."""
     inside = min(1.0, max(-1.0, velocity))
     root = D_2 * inside + D_3
     slope = D_1 * D_2 / math.sqrt(root * root + 1) if velocity == inside else 100.0
@@ -69,7 +69,7 @@ class DeGroote2016(Component):
         "1", "Strain of the tendon at F_max.", default=0.049, bounds=(1e-3, 1), source="dembia2020: OpenSim's model"
     )
     min_fiber_length = Parameter(
-        "1", "Floor of the fiber in optimal lengths.", default=0.2, bounds=(0.01, 0.9), source="degroote2016: f_PE"
+        "1", "Smallest fiber length, in optimal lengths.", default=0.2, bounds=(0.01, 0.9), source="degroote2016: f_PE"
     )
 
     largest_step = StepLimit("ms", STEP_MEASURE, 0.5)
@@ -116,7 +116,7 @@ class DeGroote2016(Component):
 
     @staticmethod
     def start(p, u, x):
-        # At rest, the longer the fiber, the less the tendon and the more it pulls back: one root.
+        # At rest the residual of the force balance grows with the fiber length, so it has one root: bisection.
         width = p.optimal_fiber_length * math.sin(p.pennation_angle)
         stiffness = tendon_stiffness(p.tendon_strain)
         low, high = p.min_fiber_length * p.optimal_fiber_length, max(u.path_length, p.optimal_fiber_length)

@@ -13,7 +13,7 @@ def force_length(length, width):
 def velocity_from_force(ratio, eccentric, curvature):
     """Inverse force-velocity relation: normalized velocity (shortening < 0) for a force ratio f_v.
 
-    Beyond the eccentric maximum it goes on with slope 0.01, as numbers need and nature does not.
+    Beyond the eccentric maximum the inverse continues with slope 0.01, for numerical reasons only.
     """
     if ratio <= 1:
         return (ratio - 1) / (1 + curvature * ratio)
@@ -47,7 +47,7 @@ class Geyer2003(Component):
     )
     curvature = Parameter("1", "K: curvature of f_v.", default=5, bounds=(0.1, 20), source="geyer2003")
     min_fiber_length = Parameter(
-        "1", "Floor of the fiber in optimal lengths.", default=0.05, bounds=(1e-3, 0.5), source="geyer2010"
+        "1", "Smallest fiber length, in optimal lengths.", default=0.05, bounds=(1e-3, 0.5), source="geyer2010"
     )
 
     largest_step = StepLimit("ms", STEP_MEASURE, 0.1)

@@ -14,7 +14,7 @@ def force_length(length, width):
 def velocity_from_force(ratio, eccentric, curvature):
     """Inverse force-velocity relation: normalized velocity (shortening < 0) for a force ratio f_v.
 
-    Beyond the eccentric maximum it goes on with slope 0.01, as numbers need and nature does not.
+    Beyond the eccentric maximum the inverse continues with slope 0.01, for numerical reasons only.
     """
     if ratio <= 1:
         return (ratio - 1) / (1 + curvature * ratio)
@@ -40,7 +40,7 @@ def tendon_force(strain, strain_at_max):
 
 
 def force_velocity(velocity, eccentric, curvature):
-    """f_v with its slope, the whole of which `velocity_from_force` inverts; 0 below -1."""
+    """f_v and its slope; 0 below -1. `velocity_from_force` is the inverse over the whole range."""
     if velocity <= -1:
         return 0.0, 1 / (1 + curvature)
     if velocity <= 0:
@@ -95,7 +95,7 @@ class Geyer2010(Component):
     )
     curvature = Parameter("1", "K: curvature of f_v.", default=5, bounds=(0.1, 20), source="geyer2010")
     min_fiber_length = Parameter(
-        "1", "Floor of the fiber in optimal lengths.", default=0.05, bounds=(1e-3, 0.5), source="geyer2010"
+        "1", "Smallest fiber length, in optimal lengths.", default=0.05, bounds=(1e-3, 0.5), source="geyer2010"
     )
 
     longest_substep = Parameter(
@@ -171,7 +171,7 @@ class Geyer2010(Component):
 
     @staticmethod
     def start(p, u, x):
-        # At rest, the longer the fiber, the less the tendon and the more it pulls back: one root.
+        # At rest the residual of the force balance grows with the fiber length, so it has one root: bisection.
         low, high = p.min_fiber_length * p.optimal_fiber_length, max(u.path_length, p.optimal_fiber_length)
         for _ in range(60):
             middle = 0.5 * (low + high)

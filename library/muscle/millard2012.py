@@ -231,7 +231,7 @@ class Millard2012(Component):
         "1", "beta: damping in F_max per v_max.", default=0.1, bounds=(0.02, 10), source="millard2013"
     )
     min_fiber_length = Parameter(
-        "1", "Floor of the fiber in optimal lengths.", default=0.4441, bounds=(0.01, 0.9), source="millard2013"
+        "1", "Smallest fiber length, in optimal lengths.", default=0.4441, bounds=(0.01, 0.9), source="millard2013"
     )
 
     largest_step = StepLimit("ms", STEP_MEASURE, 0.5)
@@ -283,7 +283,7 @@ class Millard2012(Component):
 
     @staticmethod
     def start(p, u, x):
-        # At rest, the longer the fiber, the less the tendon and the more it pulls back: one root.
+        # At rest the residual of the force balance grows with the fiber length, so it has one root: bisection.
         width = p.optimal_fiber_length * math.sin(p.pennation_angle)
         low, high = p.min_fiber_length * p.optimal_fiber_length, max(u.path_length, p.optimal_fiber_length)
         for _ in range(60):

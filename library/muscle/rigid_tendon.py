@@ -7,10 +7,10 @@ from ._hill import METABOLICS, PATH_LENGTH, PENNATE_PATH, PENNATION_ANGLE, STEP_
 
 
 class RigidTendon(Component):
-    """Hill-type muscle with a tendon that does not yield, the pennate fiber and the curves of De Groote et al. (2016).
+    """Hill-type muscle with a rigid tendon, a pennate fiber and the curves of De Groote et al. (2016).
 
-    F = F_max (A f_l f_v + f_PE) cos(alpha), where l sin(alpha) is constant and l cos(alpha) is what the
-    tendon leaves of the path. It has no state but its activation, so nothing is integrated.
+    F = F_max (A f_l f_v + f_PE) cos(alpha), where l sin(alpha) is constant and l cos(alpha) is the
+    path length minus the tendon length. The only state is that of the activation, so no fiber length is integrated.
     """
 
     max_isometric_force = Parameter("N", "F_max.", bounds=(1, 1e6))
@@ -21,7 +21,7 @@ class RigidTendon(Component):
     )
     pennation_angle = PENNATION_ANGLE
     min_fiber_length = Parameter(
-        "1", "Floor of the fiber in optimal lengths.", default=0.2, bounds=(0.01, 0.9), source="degroote2016: f_PE"
+        "1", "Smallest fiber length, in optimal lengths.", default=0.2, bounds=(0.01, 0.9), source="degroote2016: f_PE"
     )
 
     largest_step = StepLimit("ms", STEP_MEASURE, 0.5)

@@ -58,14 +58,14 @@ class SeriesElasticClutch(Component):
 
     engaged = State(levels=("no", "yes"), doc="Whether the clutch was engaged one step ago.")
     least_length = State("m", "Least length of the path since the clutch was engaged.")
-    dissipated = State("J", "Energy that the spring has held when the clutch was released, in all.")
+    dissipated = State("J", "Energy that the spring has held when the clutch was released, in total.")
 
     force = Output("N", "Force of the unit.")
     normalized_force = Output("1", "Force in F_max.")
     activation = Output("1", "Part of the fiber that carries the force, F / F_max, at most 1.")
     stretch = Output("m", "Stretch of the spring.")
     fiber_length = Output("m", "Length of the fiber: the path less the stretched spring.")
-    normalized_fiber_length = Output("1", "The same in optimal lengths.")
+    normalized_fiber_length = Output("1", "Length of the fiber in optimal lengths.")
     normalized_path_length = Output("1", "The path less the spring at rest, in optimal lengths.")
     fiber_velocity = Output("m/s", "0: the fiber holds still while it carries.")
     normalized_fiber_velocity = Output("1", "0.")

@@ -7,7 +7,7 @@ class Deviation(Component):
     """How far a metric is from a target, less a tolerance, times a weight."""
 
     weight = Parameter("1", "Cost of one unit.", default=1, bounds=(0, 1e9), source="definition: one for one")
-    unit = Parameter("*", "What is called one unit.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
+    unit = Parameter("*", "Value that counts as 1.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
     target = Parameter("*", "The value that is wanted.")
     tolerance = Parameter(
         "*", "Within this distance it costs nothing.", default=0, source="definition: every deviation counts"

@@ -4,10 +4,10 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 class Excess(Component):
-    """What a metric has above a threshold, times a weight; nothing below: a goal that is met costs nothing."""
+    """Cost of a metric above a threshold: the difference times a weight; 0 below the threshold."""
 
     weight = Parameter("1", "Cost of one unit.", default=1, bounds=(0, 1e9), source="definition: one for one")
-    unit = Parameter("*", "What is called one unit.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
+    unit = Parameter("*", "Value that counts as 1.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
     threshold = Parameter("*", "Up to here it costs nothing.", default=0, source="definition: every excess counts")
     missing = Parameter(
         "1",

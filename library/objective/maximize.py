@@ -4,7 +4,7 @@ from gaitsim.component import Component, Input, Output, Parameter
 class Maximize(Component):
     """Minus a metric, so that the largest is the best."""
 
-    scale = Parameter("*", "What one unit of cost is worth.", default=1, source="definition: SI")
+    scale = Parameter("*", "Metric value that corresponds to a cost of 1.", default=1, source="definition: SI")
     value = Input("*", "The metric.")
     cost = Output("1", "Minus the metric.")
 

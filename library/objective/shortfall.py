@@ -4,11 +4,11 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 class Shortfall(Component):
-    """What a metric lacks of a threshold, times a weight; nothing above: a goal that is met costs nothing."""
+    """Cost of a metric below a threshold: the difference times a weight; 0 above the threshold."""
 
     weight = Parameter("1", "Cost of one unit.", default=1, bounds=(0, 1e9), source="definition: one for one")
-    unit = Parameter("*", "What is called one unit.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
-    threshold = Parameter("*", "From here on it costs nothing.")
+    unit = Parameter("*", "Value that counts as 1.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
+    threshold = Parameter("*", "The cost is 0 from this value on.")
     missing = Parameter(
         "1",
         "Cost if the metric has no value, as a step length without a step.",

@@ -9,7 +9,7 @@ class WeightedSum(Component):
       speed: {use: objective/deviation, value: {from: speed}, target: 1.3 m/s, tolerance: 0.1 m/s, weight: 100}
     """
 
-    scale = Parameter("1", "What one unit of cost is worth.", default=1, bounds=(1e-9, 1e9), source="definition: as is")
+    scale = Parameter("1", "Sum that makes a cost of 1.", default=1, bounds=(1e-9, 1e9), source="definition: as is")
     terms = Input("1", "The costs of its terms.", sums=True)
     cost = Output("1", "Their sum.")
 

@@ -10,7 +10,7 @@ class Push(Component):
     """
 
     frame = Attachment("The place that is pushed.")
-    direction = Option("Where to, in the world.", choices=("forward", "left", "up"), default="forward")
+    direction = Option("Direction in the world frame.", choices=("forward", "left", "up"), default="forward")
     strength = Parameter("N", "Force; negative the other way.", bounds=(-1e5, 1e5))
     duration = Parameter("s", "How long it lasts.", bounds=(0, 1e4))
     onset = Parameter("s", "When it begins, counted from the start or from the step after the event.", bounds=(0, 1e6))

@@ -12,7 +12,7 @@ class RecordedMoment(Component):
     muscle_moment = Input("N m", "Moment of the muscles.")
 
     moment = Output("N m", "The recorded moment.")
-    lacking = Output("N m", "What the muscles lack of it.")
+    lacking = Output("N m", "Recorded moment minus the moment of the muscles.")
     muscle_moment_per_mass = Output("N m/kg", "Moment of the muscles over body mass.")
 
     @staticmethod
