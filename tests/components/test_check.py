@@ -157,8 +157,8 @@ def test_helpers_are_checked_too() -> None:
 
 PROBE = "class Probe(Component):\n    pass\n"
 IMPORTS = (
-    "a component file imports math and gaitsim.component, nothing else; "
-    "write `import math` or `from gaitsim.component import ...`."
+    "a component file imports only math, gaitsim.component and files that its kind shares; "
+    "write `import math`, `from gaitsim.component import ...` or `from ._name import ...`."
 )
 
 

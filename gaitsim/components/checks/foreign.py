@@ -21,8 +21,8 @@ def foreign(tree: ast.Module) -> Iterator[tuple[str, ast.AST]]:
     for node in ast.walk(tree):
         if isinstance(node, ast.Import | ast.ImportFrom) and not _may_import(node):
             yield (
-                "a component file imports math and gaitsim.component, nothing else; "
-                "write `import math` or `from gaitsim.component import ...`.",
+                "a component file imports only math, gaitsim.component and files that its kind shares; "
+                "write `import math`, `from gaitsim.component import ...` or `from ._name import ...`.",
                 node,
             )
         elif word := _forbidden(node):
