@@ -179,7 +179,8 @@ def small(words: list[str]) -> list[str]:
     match name_of(words):
         case "optimize":
             short = [] if {"--smoke", "--resume"} & set(words) else ["--generations", "1", "--population", "4"]
-            return words + short + ([] if "--workers" in words else ["--workers", "0"])
+            brief = ["--set", "simulate.duration=0.1 s"] if "normal" in words else []
+            return words + short + brief + ([] if "--workers" in words else ["--workers", "0"])
         case "limit":
             return [*words, "--points", "3", "--tolerance", "0.5"]
     return words
