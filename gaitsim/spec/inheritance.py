@@ -17,7 +17,9 @@ _SECTIONS = frozenset(
     {"about", "gaitsim", "initial", "objective", "parameters", "simulate", "study", "use_for"}
 )
 _SEARCHED = ("measures", "parts")
-_SPEC = re.compile(r"^\ufeff?(gaitsim|extends|parts|measures|simulate|objective|optimize) *:(\s|$)", re.MULTILINE)
+_SPEC = re.compile(
+    rf"^\ufeff?({'|'.join(sorted({'extends', 'optimize', *_SECTIONS, *_SEARCHED}))}) *:(\s|$)", re.MULTILINE
+)
 
 
 def merged(base: Mapping, over: Mapping) -> Mapping:

@@ -42,7 +42,7 @@ class FirstOrder(Component):
     @staticmethod
     def update(p, u, x, y, dt):
         stimulation = min(1.0, max(p.min_excitation, u.excitation))
-        parts = math.ceil(dt / p.longest_substep - 1e-9)
+        parts = max(1, math.ceil(min(1000.0, dt / p.longest_substep) - 1e-9))
         rise = (stimulation - x.stimulation_before) / parts
         for i in range(parts):
             present = min(1.0, max(p.min_excitation, stimulation + i * rise))

@@ -62,7 +62,7 @@ class Prescribed(Component):
         x.steps = x.steps + 1
         x.step = dt
         place = 100 * ((p.first_phase + (x.steps + 1) * dt / p.period) % 1)
-        i = int(place)
+        i = int(min(100.0, max(0.0, place)))
         before, here, after, beyond = (
             p.motion[(i - 1) % 100],
             p.motion[i % 100],

@@ -216,7 +216,7 @@ class Geyer2010(Component):
         tendon = p.tendon_slack_length * p.tendon_strain
         v_max = p.max_contraction_velocity * p.optimal_fiber_length
         shortest = p.min_fiber_length * p.optimal_fiber_length
-        parts = math.ceil(dt / p.longest_substep - 1e-9)
+        parts = max(1, math.ceil(min(1000.0, dt / p.longest_substep) - 1e-9))
         h = dt / parts
         length, velocity = y.normalized_fiber_length, y.normalized_fiber_velocity
         path, strain, isometric = u.path_length, y.tendon_strain_now, y.normalized_isometric_force

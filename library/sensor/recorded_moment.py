@@ -18,7 +18,7 @@ class RecordedMoment(Component):
     @staticmethod
     def output(p, u, x, y):
         place = 100 * (u.phase % 1)
-        left = min(99, math.floor(place))
+        left = math.floor(min(99.0, max(0.0, place)))
         i = int(left)
         y.moment = p.mass * (p.curve[i] + (place - left) * (p.curve[i + 1] - p.curve[i]))
         y.lacking = y.moment - u.muscle_moment

@@ -74,11 +74,12 @@ def chain(folder: Path, **texts: str) -> Mapping:
 
 def test_parents_are_laid_first(tmp_path: Path) -> None:
     (tmp_path / "old").mkdir()
-    (tmp_path / "old" / "first.yaml").write_text("a: 1\nb: 1\nc: 1")
+    (tmp_path / "old" / "first.yaml").write_text("gaitsim: 1\na: 1\nb: 1\nc: 1")
     (tmp_path / "old" / "base.yaml").write_text("extends: first.yaml\nb: 2\nc: 2")
     spec = chain(tmp_path, walk="extends: old/base.yaml\nc: 3")
-    assert plain(spec) == {"a": 1, "b": 2, "c": 3}
+    assert plain(spec) == {"gaitsim": 1, "a": 1, "b": 2, "c": 3}
     assert [node.mark.file for node in spec.entries.values()] == [
+        "old/first.yaml",
         "old/first.yaml",
         "old/base.yaml",
         "walk.yaml",
@@ -118,8 +119,8 @@ def test_what_is_wrong_with_a_parent_is_said_where_it_is_named(tmp_path: Path) -
         "    2 | extends: bas.yaml\n      |          ^"
     )
     with pytest.raises(InvalidSpec) as caught:
-        chain(tmp_path, base="a: [1", walk="extends: base.yaml")
-    assert str(caught.value).startswith("base.yaml:1:4: ")
+        chain(tmp_path, base="parts: [1", walk="extends: base.yaml")
+    assert str(caught.value).startswith("base.yaml:1:8: ")
 
 
 def test_settings_are_split_at_the_first_equals_sign() -> None:
