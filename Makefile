@@ -18,6 +18,7 @@ run: $(READY) ## simulate the hopper of Geyer et al. (2003)
 	.venv/bin/gaitsim run specs/hopping_geyer2003.yaml
 
 check: $(READY) ## ruff and mypy
+	.venv/bin/ruff format --check .
 	.venv/bin/ruff check .
 	.venv/bin/mypy
 

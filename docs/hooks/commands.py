@@ -65,4 +65,3 @@ def _split(text: str) -> tuple[str, list[str]]:
     examples = [piece for piece in pieces if piece.startswith("gaitsim ")]
     prose = [escaped(piece) for piece in pieces if piece != "Examples:" and piece not in examples]
     return "\n\n".join(prose), examples
-

@@ -48,9 +48,7 @@ class VideoOptions:
     end: float | None = None
 
 
-def record(
-    replay: Replay, path: Path, options: VideoOptions | None = None, progress: Progress | None = None
-) -> Path:
+def record(replay: Replay, path: Path, options: VideoOptions | None = None, progress: Progress | None = None) -> Path:
     """Write the video of a run, as MP4 or GIF by the path's ending; `progress` hears of frames done, and of how many.
 
     Errors: NoOpenGL, CannotAnimate, NoSuchSignal, Usage.

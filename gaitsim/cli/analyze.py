@@ -56,9 +56,7 @@ def analyze(
             metavar="WHICH", help="best, a rank, or GENERATION:INDEX; the number of a run for a study; repeatable."
         ),
     ] = None,
-    export: Annotated[
-        list[Export] | None, typer.Option(help=f"Write all signals as {_EXPORTS}; repeatable.")
-    ] = None,
+    export: Annotated[list[Export] | None, typer.Option(help=f"Write all signals as {_EXPORTS}; repeatable.")] = None,
     every: Annotated[
         str | None,
         typer.Option(metavar="TIME", help="Time between exported instants, such as '10 ms' (default: every step)."),

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from gaitsim.optimization.draws import Draws
     from gaitsim.simulation.outcome import Outcome
 
+
 def drawn_data(
     draws: Draws, model: Model, outcomes: Sequence[Outcome], each_run: Sequence[Mapping[str, Any]]
 ) -> dict[str, Any]:

@@ -73,9 +73,7 @@ class Parallel:
             if again:
                 yield killed(candidate)
 
-    def _found(
-        self, waiting: dict[Any, Chunked], finished: Queue[Any], suspects: list[Candidate]
-    ) -> Iterator[Found]:
+    def _found(self, waiting: dict[Any, Chunked], finished: Queue[Any], suspects: list[Candidate]) -> Iterator[Found]:
         """What chunks that were submitted give; whose workers died is added to the suspects."""
         slow: set[Candidate] = set()
         while waiting:
@@ -198,4 +196,3 @@ def _gathered(future: Any) -> Done:
     except (TimeoutError, KilledWorker) as error:
         raise _ResultLost from error
     return done
-

@@ -25,7 +25,7 @@ START, OUTPUT, UPDATE = 0, 1, 2
 STAGES = {"start": START, "output": OUTPUT, "update": UPDATE}
 
 _OPTIONS = {"error_model": "numpy", "boundscheck": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-_FOOTER = '''
+_FOOTER = """
 
 # Appended by gaitsim: the functions above as one.
 import numpy as _np
@@ -48,7 +48,7 @@ def kernel(stage, p, u, x, y, dt):
     outputs = _carray(y, 1, _Y)[0]
 {calls}
     return 0
-'''
+"""
 _ARGUMENTS = {
     "start": "parameters, inputs, states",
     "output": "parameters, inputs, states, outputs",

@@ -42,8 +42,7 @@ def described(component: ComponentFile) -> dict[str, Any]:
 
 def _primitive(component: Primitive) -> dict[str, Any]:
     return {
-        section: {name: _declaration(d) for name, d in getattr(component, section).items()}
-        for section in _SECTIONS
+        section: {name: _declaration(d) for name, d in getattr(component, section).items()} for section in _SECTIONS
     }
 
 

@@ -45,8 +45,7 @@ class Wiring:
             name: self._frame(text, f"{part.address}.{name}", part.mark) for name, text in part.attachments.items()
         }
         points = {
-            name: [Place(self._body_or_frame(p.frame), p.at) for p in places]
-            for name, places in part.points.items()
+            name: [Place(self._body_or_frame(p.frame), p.at) for p in places] for name, places in part.points.items()
         }
         return replace(part, constants=constants, attachments=attachments, points=points)
 

@@ -165,9 +165,7 @@ class Expansion:
             return
         address = where.address
         self.groups.append(Group(address, found.reference, len(self.parts), where.mark))
-        inside = Scope(
-            address, where.logical, found.document.mark.file, {}, found.reference, outer=where.scope
-        )
+        inside = Scope(address, where.logical, found.document.mark.file, {}, found.reference, outer=where.scope)
         for name, declared in found.parameters.items():
             given = node.entries.get(name, found.defaults.get(name))
             if given is None:
@@ -306,7 +304,7 @@ class Expansion:
 
 def _needs(name: str, declared: Parameter) -> str:
     about = f" ({declared.doc.rstrip('.')})" if declared.doc else ""
-    return f'needs {name}{about}; write {name}: {example(declared.unit)}.'
+    return f"needs {name}{about}; write {name}: {example(declared.unit)}."
 
 
 def _join(*words: str) -> str:

@@ -13,9 +13,7 @@ from gaitsim.text.document import Mapping, Node, Scalar, Sequence, plain
 from gaitsim.text.syntax import DEPTH_LIMIT
 
 VALUE_KEYS = frozenset({"value", "tune", "spread", "source"})
-_SECTIONS = frozenset(
-    {"about", "gaitsim", "initial", "objective", "parameters", "simulate", "study", "use_for"}
-)
+_SECTIONS = frozenset({"about", "gaitsim", "initial", "objective", "parameters", "simulate", "study", "use_for"})
 _SEARCHED = ("measures", "parts")
 _SPEC = re.compile(
     rf"^\ufeff?({'|'.join(sorted({'extends', 'optimize', *_SECTIONS, *_SEARCHED}))}) *:(\s|$)", re.MULTILINE
@@ -41,9 +39,7 @@ def _swapped(base: Mapping, over: Mapping) -> frozenset[str]:
     return base.swapped | over.swapped | frozenset(base.entries)
 
 
-def with_parents(
-    path: Path, shown: str, read: Callable[[Path, str], Mapping] = document.read
-) -> Mapping:
+def with_parents(path: Path, shown: str, read: Callable[[Path, str], Mapping] = document.read) -> Mapping:
     """The document in a file, laid over the parents that its `extends:` names."""
     documents = [read(path, shown)]
     names, seen = [shown], [os.path.realpath(path)]
@@ -51,9 +47,7 @@ def with_parents(
         parent = documents[-1].entries["extends"]
         if not isinstance(parent, Scalar) or not isinstance(parent.value, str):
             rule = "extends names one parent"
-            raise InvalidSpec(
-                Fault(f"{rule}; write a file, such as extends: walk.yaml.", parent.mark, "extends")
-            )
+            raise InvalidSpec(Fault(f"{rule}; write a file, such as extends: walk.yaml.", parent.mark, "extends"))
         path, shown = path.parent / parent.value, str(Path(shown).parent / parent.value)
         names.append(shown)
         if os.path.realpath(path) in seen:

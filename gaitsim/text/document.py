@@ -105,9 +105,7 @@ def parse(text: str, file: str) -> Mapping:
         raise _refused(file, _EMPTY)
     if not isinstance(top, Mapping):
         kind = "a list" if isinstance(top, Sequence) else "a bare value"
-        raise InvalidSpec(
-            Fault(f'this is {kind}; a spec is keys with values, such as "parts: ...".', top.mark)
-        )
+        raise InvalidSpec(Fault(f'this is {kind}; a spec is keys with values, such as "parts: ...".', top.mark))
     return top
 
 

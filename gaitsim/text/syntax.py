@@ -6,9 +6,7 @@ import re
 
 import yaml
 
-NO_ANCHORS = (
-    "a spec has no anchors (&), aliases (*) or merge keys (<<); write extends: or a composite."
-)
+NO_ANCHORS = "a spec has no anchors (&), aliases (*) or merge keys (<<); write extends: or a composite."
 DEPTH_LIMIT = 100
 TOO_DEEP = f"this is nested more than {DEPTH_LIMIT} levels deep; put an inner part into a composite of its own."
 ONE_DOCUMENT = "one file holds one spec: put the second into a file of its own."

@@ -15,9 +15,7 @@ class Skeleton(Component):
     weight = Output("N", "Weight of all that moves.")
     force = Output("N", "Force of the ground on the point, upwards.")
     friction_force = Output("N", "Force along the ground, forwards; here none.")
-    load = Output(
-        "1", "Force in weights of all that moves; 0 without gravity.", usual=(0, 3), possible=(0, 20)
-    )
+    load = Output("1", "Force in weights of all that moves; 0 without gravity.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the point is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, k d^2 / 2.")
 

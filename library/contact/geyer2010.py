@@ -35,9 +35,7 @@ class Geyer2010(Component):
         bounds=(1e-5, 10),
         source="geyer2010",
     )
-    shear_velocity = Parameter(
-        "m/s", "v_x.", default=0.03, bounds=(1e-4, 100), source="geyer2010"
-    )
+    shear_velocity = Parameter("m/s", "v_x.", default=0.03, bounds=(1e-4, 100), source="geyer2010")
     static_friction = Parameter(
         "1", "Friction at which a point slips, in normal forces.", default=0.9, bounds=(0, 10), source="geyer2010"
     )
@@ -69,9 +67,7 @@ class Geyer2010(Component):
     weight = Output("N", "Weight of all that moves.")
     force = Output("N", "Force of the ground on the point, along the ground's normal; one step old.")
     friction_force = Output("N", "Force of the ground on the point, forwards along the ground; one step old.")
-    load = Output(
-        "1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20)
-    )
+    load = Output("1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the point is below the ground's surface, else 0.")
     sticks = Output("1", "1 while the ground holds the point in one place, else 0.")
     anchor = Output("m", "Where it holds it.")

@@ -36,18 +36,10 @@ class HuntCrossley(Component):
         bounds=(1, 1e12),
         source="geijtenbeek2019: H0914",
     )
-    dissipation = Parameter(
-        "s/m", "c.", default=1, bounds=(0, 100), source="geijtenbeek2019: model H0914"
-    )
-    static_friction = Parameter(
-        "1", "mu_s.", default=0.9, bounds=(0, 10), source="geijtenbeek2019: model H0914"
-    )
-    dynamic_friction = Parameter(
-        "1", "mu_d.", default=0.8, bounds=(0, 10), source="geijtenbeek2019: model H0914"
-    )
-    viscous_friction = Parameter(
-        "s/m", "mu_v.", default=0.6, bounds=(0, 10), source="geijtenbeek2019: model H0914"
-    )
+    dissipation = Parameter("s/m", "c.", default=1, bounds=(0, 100), source="geijtenbeek2019: model H0914")
+    static_friction = Parameter("1", "mu_s.", default=0.9, bounds=(0, 10), source="geijtenbeek2019: model H0914")
+    dynamic_friction = Parameter("1", "mu_d.", default=0.8, bounds=(0, 10), source="geijtenbeek2019: model H0914")
+    viscous_friction = Parameter("s/m", "mu_v.", default=0.6, bounds=(0, 10), source="geijtenbeek2019: model H0914")
     transition_velocity = Parameter(
         "m/s",
         "v_t: slip at which friction is highest.",
@@ -99,9 +91,7 @@ class HuntCrossley(Component):
     drag = Output("N s/m", "Damping along the ground.")
     force = Output("N", "Force of the ground on the sphere, along the ground's normal; one step old.")
     friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground; one step old.")
-    load = Output(
-        "1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20)
-    )
+    load = Output("1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, 2/5 d F at rest.")
 
@@ -119,9 +109,7 @@ class HuntCrossley(Component):
         "Normal force over the height of the center.",
         each=("velocity", (-0.3, 0, 0.3)),
     )
-    moving = Curve(
-        "force", "velocity", (-1, 1), "Normal force over velocity.", each=("center_height", (0.025, 0.02))
-    )
+    moving = Curve("force", "velocity", (-1, 1), "Normal force over velocity.", each=("center_height", (0.025, 0.02)))
     slipping = Curve(
         "drag", "slip_velocity", (-0.5, 0.5), "Friction over slip velocity, per velocity.", at={"center_height": 0.02}
     )

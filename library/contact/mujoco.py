@@ -79,9 +79,7 @@ class Mujoco(Component):
     pushed_upwards = Output("N", "Upward force of the sphere on the ground, in the world.")
     force = Output("N", "Force of the ground on the sphere, along the ground's normal; one step old.")
     friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground; one step old.")
-    load = Output(
-        "1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20)
-    )
+    load = Output("1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy as of a linear spring, force times depth / 2; one step old.")
 

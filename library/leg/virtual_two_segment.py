@@ -14,9 +14,7 @@ class VirtualTwoSegment(Component):
     hip = Attachment("The frame that the leg carries.")
     ground = Attachment("The frame on which the leg stands.")
     segment_length = Parameter("m", "Length l_s of thigh and shank.", bounds=(0.01, 2))
-    landing_length = Parameter(
-        "m", "Leg length in flight; touchdown and take-off happen there.", bounds=(0.01, 4)
-    )
+    landing_length = Parameter("m", "Leg length in flight; touchdown and take-off happen there.", bounds=(0.01, 4))
     knee_moment = Input("N m", "Moment that extends the knee.", sums=True)
     length = Output("m", "Distance from the ground to the hip.")
     velocity = Output("m/s", "Rate of that distance.")

@@ -10,9 +10,7 @@ class CoContraction(Component):
     settle = Parameter(
         "s", "Samples before this time are ignored.", default=0, bounds=(0, 1e3), source="definition: the whole run"
     )
-    opening = Input(
-        "N m", "Moments that make the angle grow; their sum counts where positive.", sums=True
-    )
+    opening = Input("N m", "Moments that make the angle grow; their sum counts where positive.", sums=True)
     closing = Input("N m", "Moments that make it fall; their sum counts where negative.", sums=True)
 
     steps = State("1", "Steps since the start.")

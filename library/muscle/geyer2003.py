@@ -39,9 +39,7 @@ class Geyer2003(Component):
     tendon_strain = Parameter(
         "1", "eps_ref: strain of the tendon at F_max.", default=0.04, bounds=(1e-3, 1), source="geyer2003"
     )
-    width = Parameter(
-        "1", "w: half width of f_l in optimal lengths.", default=0.4, bounds=(0.1, 2), source="geyer2003"
-    )
+    width = Parameter("1", "w: half width of f_l in optimal lengths.", default=0.4, bounds=(0.1, 2), source="geyer2003")
     eccentric_force = Parameter(
         "1", "N: f_v at the largest lengthening velocity.", default=1.5, bounds=(1.01, 3), source="geyer2003"
     )
@@ -78,9 +76,7 @@ class Geyer2003(Component):
     normalized_force = Output("1", "Force in F_max.", usual=(0, 1.5), possible=(0, 10))
     activation = Output("1", "Activation A.")
     fiber_length = Output("m", "l_CE.")
-    normalized_fiber_length = Output(
-        "1", "l_CE in optimal lengths.", usual=(0.4, 1.6), possible=(0, 2.5)
-    )
+    normalized_fiber_length = Output("1", "l_CE in optimal lengths.", usual=(0.4, 1.6), possible=(0, 2.5))
     fiber_velocity = Output("m/s", "v_CE, shortening negative.")
     normalized_fiber_velocity = Output("1", "v_CE in v_max.")
     fiber_force = Output("N", "Active force of the contractile element, A F_max f_l f_v.")

@@ -143,9 +143,7 @@ class Geyer2010(Component):
     normalized_force = Output("1", "Force in F_max.", usual=(0, 1.5), possible=(0, 10))
     activation = Output("1", "Activation A.")
     fiber_length = Output("m", "l_CE.")
-    normalized_fiber_length = Output(
-        "1", "l_CE in optimal lengths.", usual=(0.4, 1.6), possible=(0, 2.5)
-    )
+    normalized_fiber_length = Output("1", "l_CE in optimal lengths.", usual=(0.4, 1.6), possible=(0, 2.5))
     fiber_velocity = Output("m/s", "v_CE, shortening negative.")
     normalized_fiber_velocity = Output("1", "v_CE in v_max.")
     fiber_force = Output("N", "Active force of the contractile element, A F_max f_l f_v.")

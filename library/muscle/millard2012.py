@@ -227,9 +227,7 @@ class Millard2012(Component):
     tendon_strain = Parameter(
         "1", "Strain of the tendon at F_max.", default=0.049, bounds=(1e-3, 1), source="millard2013"
     )
-    damping = Parameter(
-        "1", "beta: damping in F_max per v_max.", default=0.1, bounds=(0.02, 10), source="millard2013"
-    )
+    damping = Parameter("1", "beta: damping in F_max per v_max.", default=0.1, bounds=(0.02, 10), source="millard2013")
     min_fiber_length = Parameter(
         "1", "Smallest fiber length, in optimal lengths.", default=0.4441, bounds=(0.01, 0.9), source="millard2013"
     )

@@ -12,15 +12,9 @@ class PolynomialArm(Component):
     moment_arm = Parameter(
         "m", "r_0: arm at the reference angle; negative if the joint's angle shrinks.", bounds=(-1, 1)
     )
-    arm_slope = Parameter(
-        "m/rad", "r_1.", default=0, bounds=(-10, 10), source="definition: a constant arm"
-    )
-    arm_curvature = Parameter(
-        "m/rad^2", "r_2.", default=0, bounds=(-10, 10), source="definition: a constant arm"
-    )
-    arm_cubic = Parameter(
-        "m/rad^3", "r_3.", default=0, bounds=(-10, 10), source="definition: a constant arm"
-    )
+    arm_slope = Parameter("m/rad", "r_1.", default=0, bounds=(-10, 10), source="definition: a constant arm")
+    arm_curvature = Parameter("m/rad^2", "r_2.", default=0, bounds=(-10, 10), source="definition: a constant arm")
+    arm_cubic = Parameter("m/rad^3", "r_3.", default=0, bounds=(-10, 10), source="definition: a constant arm")
     reference_length = Parameter(
         "m", "Length l_ref at the reference angle; unsaid, the muscle's fiber and tendon at rest.", bounds=(0, 3)
     )

@@ -10,7 +10,7 @@ import pytest
 from gaitsim.cli.main import main
 
 LEG = Path(__file__).resolve().parents[2] / "specs" / "hopping_leg_mass.yaml"
-SLIPPING = 'extensor.path.side=[{on: thigh.distal, at: [7 cm, 0 m, 0 m]}]'
+SLIPPING = "extensor.path.side=[{on: thigh.distal, at: [7 cm, 0 m, 0 m]}]"
 
 
 def check(*words: str, spec: Path = LEG) -> int:
@@ -61,9 +61,7 @@ TURNS = {
 }
 
 
-def test_paths_with_moment_arms_are_drawn_and_told_in_words(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
+def test_paths_with_moment_arms_are_drawn_and_told_in_words(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     spec = LEG.with_name("walking_geyer2010.yaml")
     assert check("--plot", "--json", "--folder", str(tmp_path), spec=spec) == 0
     told = json.loads(capsys.readouterr().out)

@@ -120,9 +120,7 @@ def test_a_composite_is_checked_with_what_it_uses(folder: Path, capsys: pytest.C
         ("empty", 2, "empty: there is no component in it; name a folder of kinds, such as components."),
     ],
 )
-def test_what_is_not_there(
-    folder: Path, capsys: pytest.CaptureFixture[str], word: str, code: int, said: str
-) -> None:
+def test_what_is_not_there(folder: Path, capsys: pytest.CaptureFixture[str], word: str, code: int, said: str) -> None:
     (folder.parent / "empty").mkdir()
     found = gaitsim(capsys, "library", "check", word)
     assert (found.code, found.err.strip()) == (code, said)

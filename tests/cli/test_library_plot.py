@@ -15,7 +15,7 @@ def test_a_picture_is_drawn_where_it_is_asked_for(tmp_path: Path, capsys: pytest
     picture = tmp_path / "pictures" / "controller.pid.curves.png"
     assert picture.read_bytes()[:4] == b"\x89PNG"
     assert said.err == (
-        "proportional has no default; drawn at 1 N m/rad. Another: --set proportional=...\n" f"drawn in {picture}\n"
+        f"proportional has no default; drawn at 1 N m/rad. Another: --set proportional=...\ndrawn in {picture}\n"
     )
     assert said.out.startswith("controller/pid ")
 

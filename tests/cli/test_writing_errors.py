@@ -102,8 +102,7 @@ def test_what_was_computed_is_printed_if_it_cannot_be_saved(
     code, out, err = gaitsim(capsys, "run", "spec.yaml", "--json")
     assert (code, json.loads(out)["result"]) == (3, None)
     assert err.splitlines()[-1] == (
-        "results: the result cannot be saved (No space left on device); "
-        "make room or rights there, or use --no-save."
+        "results: the result cannot be saved (No space left on device); make room or rights there, or use --no-save."
     )
     code, out, err = gaitsim(capsys, "run", "spec.yaml")
     assert (code, "completed: 0.002 s in 2 steps" in out) == (3, True)

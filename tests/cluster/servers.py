@@ -38,9 +38,7 @@ class Servers:
         log = (place / "log").open("wb")
         command = [DASK, kind, "--scheduler-file", str(self.file), *words]
         variables = {**os.environ, **environment}
-        process = subprocess.Popen(
-            command, cwd=place, stdout=log, stderr=log, env=variables, start_new_session=True
-        )
+        process = subprocess.Popen(command, cwd=place, stdout=log, stderr=log, env=variables, start_new_session=True)
         self.processes.append(process)
         return process
 

@@ -82,9 +82,7 @@ def test_a_cache_that_is_a_file(folder: Path, caplog: pytest.LogCaptureFixture) 
     assert said(caplog) == [f"gaitsim: the cache {folder} cannot be used (Not a directory), {DEAD_END}."]
 
 
-def test_a_cache_where_no_folder_can_be_made(
-    monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
-) -> None:
+def test_a_cache_where_no_folder_can_be_made(monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture) -> None:
     monkeypatch.setenv("GAITSIM_CACHE", "/dev/null/x")
     assert [thrice(2.0), thrice(3.0)] == [6.0, 9.0]
     assert said(caplog) == [f"gaitsim: the cache /dev/null/x cannot be used (Not a directory), {DEAD_END}."]

@@ -202,21 +202,15 @@ def test_an_array_state_is_written_and_read_in_a_loop() -> None:
         "x.count = total / p.gain",
     ]
     found = audited("update(p, u, x, y, dt)", *lines).faults
-    assert [fault.message for fault in found] == [
-        "x.count is declared in 1 (a plain number); this gives a time (s)."
-    ]
+    assert [fault.message for fault in found] == ["x.count is declared in 1 (a plain number); this gives a time (s)."]
     lines[1] = "x.samples[i] = u.speed"
     found = audited("update(p, u, x, y, dt)", *lines[:2]).faults
-    assert [fault.message for fault in found] == [
-        "x.samples is declared in N (a force); this gives a velocity (m/s)."
-    ]
+    assert [fault.message for fault in found] == ["x.samples is declared in N (a force); this gives a velocity (m/s)."]
 
 
 def test_a_metric_is_checked() -> None:
     found = audited("finish(p, x, m)", "m.peak = p.width").faults
-    assert [fault.message for fault in found] == [
-        "m.peak is declared in N (a force); this gives a length (m)."
-    ]
+    assert [fault.message for fault in found] == ["m.peak is declared in N (a force); this gives a length (m)."]
 
 
 def test_a_dimension_that_grows_in_a_loop_is_found() -> None:
@@ -230,15 +224,11 @@ def test_the_components_own_exception_ends_a_path_and_hides_nothing() -> None:
 
 
 def test_a_local_that_is_not_always_set_is_named() -> None:
-    assert output("if u.load > 0:", "    f = u.load", "y.force = f") == [
-        "f is not set on every path that leads here."
-    ]
+    assert output("if u.load > 0:", "    f = u.load", "y.force = f") == ["f is not set on every path that leads here."]
 
 
 def test_lines_that_no_path_reaches_are_named() -> None:
-    result = audited(
-        "output(p, u, x, y)", "if LIMIT < 1:", "    y.force = 0", "y.force = arm(0, p.gain)"
-    )
+    result = audited("output(p, u, x, y)", "if LIMIT < 1:", "    y.force = 0", "y.force = arm(0, p.gain)")
     begin = HEAD.count("\n") + 4
     assert (result.faults, result.unreached) == ((), (begin + 1,))
 

@@ -169,14 +169,17 @@ IMPORTS = (
         ("import numpy\n" + PROBE, f"hill.py:1:1: {IMPORTS}"),
         ("import math as m\n" + PROBE, f"hill.py:1:1: {IMPORTS}"),
         (PROBE + "    import os\n", f"hill.py:3:5: {IMPORTS}"),
-        ("import math\n", "hill.py: a component file holds one class that derives from Component; "
-         "this has none."),
-        (PROBE + PROBE.replace("Probe", "Other"),
-         "hill.py:3:1: Other is a second component; give it a file of its own."),
+        ("import math\n", "hill.py: a component file holds one class that derives from Component; this has none."),
+        (
+            PROBE + PROBE.replace("Probe", "Other"),
+            "hill.py:3:1: Other is a second component; give it a file of its own.",
+        ),
         ("class A:\n    pass\n" + PROBE, "hill.py:1:1: A does not derive from Component."),
         ("X = eval('1')\n" + PROBE, "hill.py:1:5: eval may not be used in a component file."),
-        ("for i in (1, 2):\n    pass\n" + PROBE,
-         "hill.py:1:1: a component file holds imports, constants, functions and one class."),
+        (
+            "for i in (1, 2):\n    pass\n" + PROBE,
+            "hill.py:1:1: a component file holds imports, constants, functions and one class.",
+        ),
     ],
 )
 def test_what_a_file_may_hold(source: str, message: str) -> None:

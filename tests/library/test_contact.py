@@ -103,9 +103,7 @@ def test_static_depth_and_load(tmp_path: Path, contact: str, depth: float) -> No
         (1, 1.0, 0.48774),
     ],
 )
-def test_restitution_of_hunt_and_crossley(
-    tmp_path: Path, dissipation: float, speed: float, restitution: float
-) -> None:
+def test_restitution_of_hunt_and_crossley(tmp_path: Path, dissipation: float, speed: float, restitution: float) -> None:
     law = f"hunt_crossley, radius: 3 cm, dissipation: {dissipation} s/m"
     step = {"STEP": "0.01 ms", "GRAVITY": "0 m/s^2", "MASS": "1 kg", "SPEED": f"{-speed} m/s", "DURATION": "0.1 s"}
     found = drop(tmp_path, law, 0.03, **step)

@@ -79,9 +79,7 @@ def test_the_inverse_and_its_continuation(velocity: float) -> None:
 def test_force_velocity_in_the_whole_muscle(velocity: float, mode: str) -> None:
     wanted = 0.6 * VELOCITY[velocity] + PASSIVE[1.0]
     strain = math.log(wanted / 0.2 + 1) / (math.log(6) / 0.049)
-    now = computed(
-        MUSCLE, mode, **SIZES, activation_level=0.6, length=0.04, path_length=0.04 + 0.26 * (1 + strain)
-    )
+    now = computed(MUSCLE, mode, **SIZES, activation_level=0.6, length=0.04, path_length=0.04 + 0.26 * (1 + strain))
     # f_l is 1 to six digits at the optimal length.
     assert now.normalized_force == pytest.approx(wanted, abs=1e-9)
     assert now.normalized_fiber_velocity == pytest.approx(velocity, abs=5e-6)

@@ -275,9 +275,7 @@ def test_static_depth_of_mujocos_contact(tmp_path: Path, solref: str, depth: flo
         ("-10000 -20", 0.01213, 0.7331, 13.58),
     ],
 )
-def test_a_drop_on_mujocos_contact(
-    tmp_path: Path, solref: str, depth: float, restitution: float, peak: float
-) -> None:
+def test_a_drop_on_mujocos_contact(tmp_path: Path, solref: str, depth: float, restitution: float, peak: float) -> None:
     found = ball(tmp_path, f"mujoco, radius: 5 cm{SOLREF[solref]}", HEIGHT="15 cm", DURATION="0.3 s")
     assert -found["ground.height"].min() == pytest.approx(depth, abs=2e-5)
     assert found["ground.load"].max() == pytest.approx(peak, rel=0.01)
@@ -325,9 +323,7 @@ def test_the_curves_of_geyer2010(mode: str) -> None:
 @modes
 def test_the_buffer_keeps_the_fiber_from_collapsing(mode: str) -> None:
     def velocity(length: float) -> float:
-        now = computed(
-            "muscle/geyer2010", mode, **MUSCLE, activation_level=0.5, length=0.1 * length, path_length=0.1
-        )
+        now = computed("muscle/geyer2010", mode, **MUSCLE, activation_level=0.5, length=0.1 * length, path_length=0.1)
         assert now.force == 0
         return float(now.normalized_fiber_velocity)
 

@@ -333,7 +333,7 @@ def test_numbers_come_back_to_the_last_bit() -> None:
     chance = random.Random(1)
     found = [struct.unpack("<d", chance.randbytes(8))[0] for _ in range(3000)]
     numbers = tuple(v for v in found if math.isfinite(v))
-    verdict = Verdict("completed", "ä \\ \"", numbers[0], {"a": numbers[1], "b": None}, 1.0, 10)
+    verdict = Verdict("completed", 'ä \\ "', numbers[0], {"a": numbers[1], "b": None}, 1.0, 10)
     evaluation = Evaluation(Candidate(1, 2, numbers), verdict)
     assert evaluation_of(evaluation.line().encode()) == evaluation
 

@@ -138,17 +138,11 @@ def test_settings_are_split_at_the_first_equals_sign() -> None:
         ),
         (
             "gain=",
-            (
-                "--set gain=: there is no value after the =; "
-                'write null to remove it, or "" for an empty text.'
-            ),
+            ('--set gain=: there is no value after the =; write null to remove it, or "" for an empty text.'),
         ),
         (
             "a..b=1",
-            (
-                "--set a..b=1: an address is words with one dot between them, "
-                "such as leg.knee.damping."
-            ),
+            ("--set a..b=1: an address is words with one dot between them, such as leg.knee.damping."),
         ),
         (
             "=1",
@@ -212,26 +206,17 @@ def test_only_what_is_set_bears_the_mark_of_the_setting() -> None:
         (
             "trunk.use.value",
             "1",
-            (
-                "--set trunk.use.value=1: trunk.use: use is segment/hat, with no value inside; "
-                "set trunk.use as a whole."
-            ),
+            ("--set trunk.use.value=1: trunk.use: use is segment/hat, with no value inside; set trunk.use as a whole."),
         ),
         (
             "leg.points.2.on",
             "foot",
-            (
-                "--set leg.points.2.on=foot: leg.points: 2 is no item of this list; "
-                "number its items from 0 to 1."
-            ),
+            ("--set leg.points.2.on=foot: leg.points: 2 is no item of this list; number its items from 0 to 1."),
         ),
         (
             "leg.points.on",
             "foot",
-            (
-                "--set leg.points.on=foot: leg.points: on is no item of this list; "
-                "number its items from 0 to 1."
-            ),
+            ("--set leg.points.on=foot: leg.points: on is no item of this list; number its items from 0 to 1."),
         ),
         (
             "leg.gain",

@@ -43,8 +43,10 @@ def test_a_kind_inside_of_parts_with_a_number(tmp_path: Path) -> None:
     found = model(tmp_path, "{terrain: {use: terrain/steps, first: 2 m, rise: -3 cm}}")
     assert references(found)["first.terrain"] == references(found)["second.terrain"] == "terrain/steps"
     assert number(found, "first.terrain.rise") == number(found, "second.terrain.rise") == pytest.approx(-0.03)
-    assert found.notices == ("warning: contact/spring_damper (second) is right up to a step of 0.5 ms, "
-                             "and simulate.step is 1 ms; see gaitsim library show contact/spring_damper",)
+    assert found.notices == (
+        "warning: contact/spring_damper (second) is right up to a step of 0.5 ms, "
+        "and simulate.step is 1 ms; see gaitsim library show contact/spring_damper",
+    )
 
 
 def test_a_number_of_it_from_the_command_line(tmp_path: Path) -> None:

@@ -233,34 +233,26 @@ def test_files_that_hold_no_spec_are_refused(tmp_path: Path) -> None:
     assert file_refusal(holder, "folder") == ("folder: this is a folder; it holds no .yaml file.")
     (holder / "walk.yaml").touch()
     (holder / "hop.yaml").touch()
-    assert file_refusal(holder, "folder") == (
-        "folder: this is a folder; name one spec in it: hop.yaml, walk.yaml."
-    )
+    assert file_refusal(holder, "folder") == ("folder: this is a folder; name one spec in it: hop.yaml, walk.yaml.")
     assert file_refusal(holder / "wakl.yaml", "folder/wakl.yaml") == (
         "folder/wakl.yaml: there is no such file. Did you mean walk.yaml?"
     )
     assert file_refusal(tmp_path / "none" / "walk.yaml", "none/walk.yaml") == (
         f"none/walk.yaml: there is no folder {tmp_path}/none; check the path."
     )
-    assert file_refusal(empty / "walk.yaml", "w") == (
-        f"w: there is no folder {empty}; check the path."
-    )
-    assert file_refusal(Path("a\0b"), "a") == (
-        "a: it cannot be read (embedded null byte); check the path."
-    )
+    assert file_refusal(empty / "walk.yaml", "w") == (f"w: there is no folder {empty}; check the path.")
+    assert file_refusal(Path("a\0b"), "a") == ("a: it cannot be read (embedded null byte); check the path.")
 
 
 def test_bytes_that_are_no_text_are_named(tmp_path: Path) -> None:
     path = tmp_path / "a.yaml"
     path.write_bytes(b"a: \0")
     assert file_refusal(path, "a.yaml") == (
-        "a.yaml: byte 3 is NUL, so this is not a text in UTF-8; "
-        "save it as text in UTF-8, or name another file."
+        "a.yaml: byte 3 is NUL, so this is not a text in UTF-8; save it as text in UTF-8, or name another file."
     )
     path.write_bytes(b"a: 1\nb: \xe4\n")
     assert file_refusal(path, "a.yaml") == (
-        "a.yaml: byte 8 (0xe4, in line 2) is not UTF-8; "
-        "save it as text in UTF-8, or name another file."
+        "a.yaml: byte 8 (0xe4, in line 2) is not UTF-8; save it as text in UTF-8, or name another file."
     )
 
 
@@ -270,14 +262,11 @@ def test_a_large_file_is_refused_unread(tmp_path: Path, monkeypatch: pytest.Monk
         file.truncate(6_000_000)
     monkeypatch.setattr(Path, "read_bytes", lambda self: pytest.fail("read"))
     assert file_refusal(path, "a.yaml") == (
-        "a.yaml: this file has 6.0 MB and the limit is 5 MB; "
-        "name a spec, and keep data in other files."
+        "a.yaml: this file has 6.0 MB and the limit is 5 MB; name a spec, and keep data in other files."
     )
 
 
-def test_a_file_without_permission_is_refused(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_file_without_permission_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def denied(self: Path) -> bytes:
         raise PermissionError(13, "Permission denied")
 
@@ -298,9 +287,7 @@ def test_pipes_devices_and_dead_links_are_refused(tmp_path: Path) -> None:
         listener.bind(str(tmp_path / "s"))
         assert file_refusal(tmp_path / "s", "a") == said
     (tmp_path / "link").symlink_to("gone.yaml")
-    assert file_refusal(tmp_path / "link", "a") == (
-        "a: this links to gone.yaml, which does not exist; mend the link."
-    )
+    assert file_refusal(tmp_path / "link", "a") == ("a: this links to gone.yaml, which does not exist; mend the link.")
     (tmp_path / "loop").symlink_to("loop")
     assert file_refusal(tmp_path / "loop", "a") == (
         "a: it cannot be read (Too many levels of symbolic links); check the path."
@@ -322,16 +309,14 @@ def test_a_value_alone_follows_the_same_rules() -> None:
     assert str(caught.value) == "--set a: b stands here twice; remove or rename one of the two."
     with pytest.raises(InvalidSpec) as caught:
         parse_value("#fff", "--set a=#fff")
-    assert str(caught.value) == (
-        "--set a=#fff: there is no value; write one, in quotes if it begins with #."
-    )
+    assert str(caught.value) == ("--set a=#fff: there is no value; write one, in quotes if it begins with #.")
 
 
 def test_dump_is_readable_and_quotes_what_would_change() -> None:
     data = {"parts": {"knee": {"at": [1, 2.0, "3 %"], "use": "joint/hinge"}}, "no": "1e3"}
-    assert dump(data) == (
-        "parts:\n  knee:\n    at: [1, 2.0, 3 %]\n    use: joint/hinge\n'no': '1e3'\n"
-    ).replace("'no'", "no")
+    assert dump(data) == ("parts:\n  knee:\n    at: [1, 2.0, 3 %]\n    use: joint/hinge\n'no': '1e3'\n").replace(
+        "'no'", "no"
+    )
     assert dump({}) == "{}\n"
     for refused in ([1], {1: 2}, {"a": math.nan}, {"a": {1, 2}}):
         with pytest.raises(TypeError):

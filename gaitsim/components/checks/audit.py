@@ -85,9 +85,7 @@ def _line_and_column(fault: Fault) -> tuple[int, int]:
     return (fault.mark.line, fault.mark.column) if fault.mark else (0, 0)
 
 
-def _operator(
-    text: str, swapped: bool = False, keeps: bool = True
-) -> Callable[[Number, Any], Number]:
+def _operator(text: str, swapped: bool = False, keeps: bool = True) -> Callable[[Number, Any], Number]:
     """An operator between quantities of one dimension."""
 
     def operator(self: Number, other: Any) -> Number:
@@ -451,9 +449,7 @@ def _namespace(search: _Search) -> dict[str, Any]:
         return mathematics if name == "math" else builtins.__import__(name, *rest)
 
     names = {n: v for n, v in vars(math).items() if not n.startswith("_")}
-    mathematics = SimpleNamespace(
-        **{n: without_value(v, rule(n)) if callable(v) else v for n, v in names.items()}
-    )
+    mathematics = SimpleNamespace(**{n: without_value(v, rule(n)) if callable(v) else v for n, v in names.items()})
     own = {
         "__import__": find,
         "range": without_value(concrete, turns),

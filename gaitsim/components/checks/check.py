@@ -91,9 +91,9 @@ def parse(source: str, file: str) -> ast.Module:
                 faults.add(f"{node.name} does not derive from Component.", mark)
             elif classes > 1:
                 faults.add(f"{node.name} is a second component; give it a file of its own.", mark)
-        elif not isinstance(
-            node, ast.Import | ast.ImportFrom | ast.Assign | ast.AnnAssign | ast.FunctionDef
-        ) and not (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)):
+        elif not isinstance(node, ast.Import | ast.ImportFrom | ast.Assign | ast.AnnAssign | ast.FunctionDef) and not (
+            isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+        ):
             faults.add("a component file holds imports, constants, functions and one class.", mark)
     if not classes:
         faults.add(
@@ -238,8 +238,7 @@ class _Check:
                     continue
                 if id(node) in written and name not in _WRITERS.get(letter, ()):
                     said = _READ_ONLY.get(letter) or (
-                        f"{_SAID[_LETTERS[letter]].split()[1]}s are set in "
-                        f"{' and '.join(_WRITERS[letter])} only."
+                        f"{_SAID[_LETTERS[letter]].split()[1]}s are set in {' and '.join(_WRITERS[letter])} only."
                     )
                     self.add(f"{letter}.{node.attr} is assigned in {name}; {said}", node)
 
