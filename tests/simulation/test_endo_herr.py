@@ -23,22 +23,21 @@ def test_it_walks_at_its_step_and_at_half_of_it(step: str) -> None:
     assert 1.2 < walk["speed"] < 1.4
     assert 0.58 < walk["stance_fraction"] < 0.66
     assert walk["correlation_hip"] > 0.95
-    # People's gait is met no better than this yet: 0.9 and 0.8 are wanted, and a stop that is hardly touched.
-    assert walk["correlation_knee"] > 0.8 and walk["correlation_ankle"] > 0.65
-    assert walk["knee_stop_l.peak"] < 150
+    # Three aims are missed, as the page says: correlations of 0.9 and 0.8, and 60 N m on the knee's stop.
+    assert walk["correlation_knee"] > 0.8 and walk["correlation_ankle"] > 0.63
+    assert max(walk["knee_stop_l.peak"], walk["knee_stop_r.peak"]) < 100
     assert 2.5 < walk["cost_of_transport"] < 4
     for side in "lr":
         assert walk[f"force_peaks_{side}.two_peaks"] == 1 and walk[f"force_peaks_{side}"] < 1.4
         clutches = [walk[f"work_{unit}_{side}"] for unit in CLUTCHES]
-        # The hamstrings are stretched at touchdown: what they hold then differs a little from stride to stride.
-        assert max(clutches) < 0.15 and sum(clutches) < -5
+        assert max(clutches) < 0.005 and sum(clutches) < -5
         assert walk[f"work_tibialis_anterior_{side}"] < 0
         assert walk[f"work_soleus_{side}"] > 0 and walk[f"work_gluteus_{side}"] > 0
 
 
-@pytest.mark.parametrize(("variant", "cost"), [("biceps_femoris", 2.89), ("rectus_femoris", 3.14)])
+@pytest.mark.parametrize(("variant", "cost"), [("biceps_femoris", 3.03), ("rectus_femoris", 3.21)])
 def test_a_muscle_instead_of_one_clutch_costs_more(variant: str, cost: float) -> None:
-    """The walker itself walks for 2.80 J/(kg m)."""
+    """The walker itself walks for 2.92 J/(kg m)."""
     found = Simulator(Opening(ROOT / "specs" / f"walking_endo_herr_{variant}.yaml").source().model()).run()
     assert found.metrics["fall_time"] == pytest.approx(20)
     assert found.metrics["cost_of_transport"] == pytest.approx(cost, abs=0.05)
