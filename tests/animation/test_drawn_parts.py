@@ -42,10 +42,14 @@ simulate: {duration: 1 s, step: 1 ms}
 
 
 def required(reference: str) -> str:
-    """Values where there is no default: within the bounds, one larger than the other; the first choice."""
+    """Values where there is no default.
+
+    Numbers are within the bounds, one larger than the other; words are the first choice; curves close.
+    """
     part = primitive(reference)
     bare = {name: one for name, one in part.parameters.items() if one.default is None}
     values = [f", {name}: {one.choices[0]}" for name, one in part.options.items() if one.default is None]
+    values += [f", {name}: [0 {one.unit}, 10 {one.unit}, 0 {one.unit}]" for name, one in part.series.items()]
     for number, (name, one) in enumerate(bare.items(), start=1):
         low, high = one.bounds or (0.0, 1.0)
         value = low + (high - low) * number / (len(bare) + 1)
