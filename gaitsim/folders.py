@@ -1,6 +1,6 @@
-"""The user's own folders: a cache of what can be made again, and what gaitsim must remember.
+"""The user's own folders: a cache of what can be made again, what gaitsim must remember, and results.
 
-Both hold what decides which code runs, so neither is ever looked for from the current folder.
+The first two hold what decides which code runs, so neither is ever looked for from the current folder.
 """
 
 from __future__ import annotations
@@ -21,6 +21,11 @@ def state_folder() -> Path | None:
     if own := os.environ.get("GAITSIM_STATE"):
         return _absolute(f"{own}/gaitsim")
     return _below("XDG_STATE_HOME", ".local/state")
+
+
+def results_folder(said: Path | None = None) -> Path:
+    """Where results are: the folder that was said, or else $GAITSIM_RESULTS, or results in the current folder."""
+    return said if said is not None else Path(os.environ.get("GAITSIM_RESULTS") or "results")
 
 
 def _below(variable: str, usual: str) -> Path | None:

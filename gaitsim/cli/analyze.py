@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Trust, opening
+from gaitsim.cli.options import Json, Libraries, Results, Set, Trust, opening
 from gaitsim.errors import alternatives
 from gaitsim.exchange.formats import FORMATS
 
@@ -85,6 +85,7 @@ def analyze(
     ] = False,
     folder: Annotated[Path | None, typer.Option(metavar="FOLDER", help="Output folder (default: the result).")] = None,
     start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
+    results: Results = None,
     trust: Trust = False,
     settings: Set = None,
     library: Libraries = None,
@@ -122,7 +123,7 @@ def analyze(
         only=only,
         folder=folder,
     )
-    opened = [opening(path, settings, library, not start, trust) for path in paths]
+    opened = [opening(path, settings, library, not start, trust, results=results) for path in paths]
     found = analyzed(opened, candidate or (), wanted, console.Talk(json))
     _tell(found.replays, found.products, json)
     return found.products.exit_code

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust, opening
+from gaitsim.cli.options import Json, Libraries, Results, Set, Spec, Trust, opening
 
 if TYPE_CHECKING:
     from gaitsim.errors import Fault
@@ -25,6 +25,7 @@ def check(
     tolerance: Annotated[
         float, typer.Option(metavar="SHARE", help="With --convergence: mark larger relative changes.", min=0)
     ] = 0.01,
+    results: Results = None,
     trust: Trust = False,
     library: Libraries = None,
     json: Json = False,
@@ -46,7 +47,7 @@ def check(
     from gaitsim.study.soundness import checked
 
     # With --convergence, what is simulated is what `run` would simulate.
-    opened = opening(spec, settings, library, tuned=convergence, trusted=trust)
+    opened = opening(spec, settings, library, tuned=convergence, trusted=trust, results=results)
     sound = checked(opened, convergence, console.Talk(json))
     model, arms, found = sound.models[0], sound.arms, sound.convergence
     picture = folder / f"{model.name}.moment_arms.png" if plot and arms else None

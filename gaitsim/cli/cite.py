@@ -5,13 +5,20 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust, opening
+from gaitsim.cli.options import Json, Libraries, Results, Set, Spec, Trust, opening
 
 if TYPE_CHECKING:
     from gaitsim.study.source import Source
 
 
-def cite(spec: Spec, settings: Set = None, trust: Trust = False, library: Libraries = None, json: Json = False) -> None:
+def cite(
+    spec: Spec,
+    settings: Set = None,
+    results: Results = None,
+    trust: Trust = False,
+    library: Libraries = None,
+    json: Json = False,
+) -> None:
     """Print BibTeX for what a model uses: sources of its numbers, components, MuJoCo, and the search that tuned it.
 
     Examples:
@@ -23,7 +30,7 @@ def cite(spec: Spec, settings: Set = None, trust: Trust = False, library: Librar
     from gaitsim.components.bibliography import read_bibliography
     from gaitsim.results.citation import citations
 
-    source = opening(spec, settings, library, trusted=trust).source()
+    source = opening(spec, settings, library, trusted=trust, results=results).source()
     model = source.model()
     # A result keeps its components but no bibliography: that is the library's.
     folders = [*source.library.folders, *opening(spec, None, library).library().folders]

@@ -8,8 +8,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust, opening
+from gaitsim.cli.options import Json, Libraries, ModeName, Results, Set, Spec, Trust, opening
 from gaitsim.errors import command
+from gaitsim.folders import results_folder
 
 if TYPE_CHECKING:
     from gaitsim.study.limits import Hunt, Limit
@@ -40,6 +41,7 @@ def limit(
     candidate: Annotated[
         str | None, typer.Option(metavar="WHICH", help="Candidate of a result: best, a rank, or GENERATION:INDEX.")
     ] = None,
+    results: Results = None,
     start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
     trust: Trust = False,
     library: Libraries = None,
@@ -53,11 +55,11 @@ def limit(
     """
     from gaitsim.study.limits import Scan, hunted
 
-    opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)
+    opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
     talk = console.Talk(json)
     hunt = hunted(opened, vary, until, Scan(points, tolerance), origin, mode.value, talk)
     hunt.run(talk.progress("runs"))
-    keeping = hunt.kept(None if no_save else RESULTS)
+    keeping = hunt.kept(None if no_save else results_folder(results))
     _report(hunt, keeping.folder, json)
     return console.code_after(keeping.error, 0)
 

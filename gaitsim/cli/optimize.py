@@ -10,8 +10,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust, opening
+from gaitsim.cli.options import Json, Libraries, ModeName, Results, Set, Spec, Trust, opening
 from gaitsim.errors import alternatives, command
+from gaitsim.folders import results_folder
 from gaitsim.optimization.algorithms import ALGORITHMS, DEFAULT
 
 if TYPE_CHECKING:
@@ -47,6 +48,7 @@ def optimize(
     force: Annotated[
         bool, typer.Option("--force", help="With --adopt: replace even values that score better.")
     ] = False,
+    results: Results = None,
     trust: Trust = False,
     settings: Set = None,
     library: Libraries = None,
@@ -69,7 +71,7 @@ def optimize(
     from gaitsim.study.searches import Request, begun, check_adoption, resumed
     from gaitsim.study.workplace import Workplace
 
-    opened = opening(spec, settings, library, tuned=False, trusted=trust)
+    opened = opening(spec, settings, library, tuned=False, trusted=trust, results=results)
     check_adoption(opened, adopt, force)
     request = Request(
         opening=opened,
@@ -83,7 +85,7 @@ def optimize(
     )
     workplace = Workplace(workers, cluster, scheduler, scheduler_file)
     workplace.check()
-    tuning = resumed(request, RESULTS) if resume else begun(request, RESULTS)
+    tuning = (resumed if resume else begun)(request, results_folder(results))
     for notice in tuning.notices:
         console.say(notice)
     began = time.perf_counter()

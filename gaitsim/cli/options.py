@@ -42,7 +42,12 @@ Trust = Annotated[bool, typer.Option("--trust", help="Run a result's components 
 Json = Annotated[bool, typer.Option("--json", help="Print one JSON document on stdout.")]
 
 
-RESULTS = Path("results")
+Results = Annotated[
+    Path | None,
+    typer.Option(
+        "--results", metavar="FOLDER", help="Folder of the results (default: $GAITSIM_RESULTS, or else results)."
+    ),
+]
 
 
 class ModeName(StrEnum):
@@ -59,6 +64,10 @@ def opening(
     tuned: bool = True,
     trusted: bool = False,
     candidate: str | None = None,
+    results: Path | None = None,
 ) -> Opening:
-    """What a command is about, as its options say."""
-    return Opening(path, tuple(settings or ()), tuple(folders or ()), tuned, trusted, candidate)
+    """What a command is about, as its options say. results: the folder in which a result's name is looked up."""
+    from gaitsim.results.manifest import result_named
+
+    named = result_named(path, results)
+    return Opening(named, tuple(settings or ()), tuple(folders or ()), tuned, trusted, candidate, results)

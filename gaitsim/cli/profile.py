@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust, opening
+from gaitsim.cli.options import Json, Libraries, Results, Set, Spec, Trust, opening
 from gaitsim.study.opening import only_row
 
 if TYPE_CHECKING:
@@ -31,6 +31,7 @@ def profile(
         str | None, typer.Option(metavar="WHICH", help="Candidate of a result: best, a rank, or GENERATION:INDEX.")
     ] = None,
     start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
+    results: Results = None,
     trust: Trust = False,
     library: Libraries = None,
     json: Json = False,
@@ -47,7 +48,9 @@ def profile(
     """
     from gaitsim.simulation.profile import profile as measured
 
-    source = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate).source()
+    source = opening(
+        spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results
+    ).source()
     model = source.model(only_row(source, spec).document)
     for notice in dict.fromkeys([*source.notices, *model.notices]):
         console.say(notice)

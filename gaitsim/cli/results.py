@@ -8,7 +8,8 @@ from typing import Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import RESULTS, Json, Trust
+from gaitsim.cli.options import Json, Trust
+from gaitsim.folders import results_folder
 from gaitsim.whole import PARTIAL
 
 app = typer.Typer(help="List, show and verify results.", no_args_is_help=True, rich_markup_mode=None)
@@ -18,14 +19,17 @@ Folder = Annotated[Path, typer.Argument(metavar="RESULT", help="A result folder.
 
 @app.command("list")
 def list_results(
-    folder: Annotated[Path, typer.Argument(metavar="[FOLDER]", help="Folder of the results.")] = RESULTS,
+    folder: Annotated[
+        Path | None,
+        typer.Argument(metavar="[FOLDER]", help="Folder of the results (default: $GAITSIM_RESULTS, or else results)."),
+    ] = None,
     json: Json = False,
 ) -> None:
     """List results, oldest first.
 
     Example: gaitsim results list
     """
-    made = [path.parent for path in sorted(folder.glob("*/manifest.json"))]
+    made = [path.parent for path in sorted(results_folder(folder).glob("*/manifest.json"))]
     rows = [_summary(path) for path in made if path.suffix != PARTIAL]
     rows.sort(key=lambda row: str(row["created"]))
     if json:

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import RESULTS, Json, Libraries, ModeName, Set, Spec, Trust, opening
+from gaitsim.cli.options import Json, Libraries, ModeName, Results, Set, Spec, Trust, opening
 from gaitsim.errors import SimulationFailed, command
+from gaitsim.folders import results_folder
 
 if TYPE_CHECKING:
     from gaitsim.model import Model
@@ -51,6 +52,7 @@ def run(
             metavar="WHICH", help="Candidate of a result: best, a rank, GENERATION:INDEX, or the number of a run."
         ),
     ] = None,
+    results: Results = None,
     start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
     trust: Trust = False,
     library: Libraries = None,
@@ -74,8 +76,8 @@ def run(
     from gaitsim.study.runs import Places, prepared
 
     drawn = draws_asked(draws, within, seed, vary or [], out)
-    opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate)
-    places, talk = Places(None if no_save else RESULTS, out, every), console.Talk(json)
+    opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
+    places, talk = Places(None if no_save else results_folder(results), out, every), console.Talk(json)
     runs = prepared(opened, vary or [], drawn, mode.value, places, talk)
     try:
         runs.run(talk)

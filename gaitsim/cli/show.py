@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Json, Libraries, Set, Spec, Trust, opening
+from gaitsim.cli.options import Json, Libraries, Results, Set, Spec, Trust, opening
 
 
 def show(
@@ -18,6 +18,7 @@ def show(
     connections: Annotated[bool, typer.Option("--connections", help="Every connection between parts.")] = False,
     mjcf: Annotated[bool, typer.Option("--mjcf", help="The mechanics as MuJoCo XML.")] = False,
     start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
+    results: Results = None,
     trust: Trust = False,
     settings: Set = None,
     library: Libraries = None,
@@ -29,7 +30,7 @@ def show(
     """
     from gaitsim.results.listing import connection_rows, parameter_rows, part_rows
 
-    source = opening(spec, settings, library, tuned=not start, trusted=trust).source()
+    source = opening(spec, settings, library, tuned=not start, trusted=trust, results=results).source()
     model = source.model()
     data: dict[str, Any] = {}
     if tree or not (parameters or connections or mjcf):

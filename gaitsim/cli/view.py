@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from gaitsim.cli import console
-from gaitsim.cli.options import Libraries, Set, Trust, opening
+from gaitsim.cli.options import Libraries, Results, Set, Trust, opening
 
 
 def view(
@@ -20,6 +20,7 @@ def view(
     ] = None,
     start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,
     settings: Set = None,
+    results: Results = None,
     trust: Trust = False,
     library: Libraries = None,
 ) -> None:
@@ -38,7 +39,9 @@ def view(
     from gaitsim.analysis.replays.replay import replayed
     from gaitsim.animation import viewer
 
-    source = opening(path, settings, library, tuned=not start, trusted=trust, candidate=candidate).source()
+    source = opening(
+        path, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results
+    ).source()
     model = source.model()
     for notice in (*source.notices, *model.notices):
         console.say(notice)

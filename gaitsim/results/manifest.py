@@ -12,6 +12,7 @@ from pydantic_core import ErrorDetails
 
 from gaitsim import __version__
 from gaitsim.errors import Fault, Mark, shortened
+from gaitsim.folders import results_folder
 from gaitsim.results.bundle import BadResult as BadResult
 from gaitsim.results.bundle import Bundle, read_bundle
 from gaitsim.results.lock import state_of
@@ -23,8 +24,20 @@ FORMAT = 2  # of what a result's files say; in 1, parameters.csv and model.yaml 
 
 
 def is_result(path: Path) -> bool:
-    """Whether a path is meant as a result: a folder with a manifest, or below one named results."""
-    return (path / _NAME).is_file() or (path.suffix != ".yaml" and path.absolute().parent.name == "results")
+    """Whether a path is meant as a result: a folder with a manifest, or in a folder of results."""
+    if (path / _NAME).is_file():
+        return True
+    parent = path.absolute().parent
+    return path.suffix != ".yaml" and (parent.name == "results" or parent == results_folder().absolute())
+
+
+def result_named(path: Path, results: Path | None = None) -> Path:
+    """The result that is meant by its name alone, such as 2026-11-22-hopping-3f9c; any other path as it is.
+
+    results: the folder in which names are looked up, if not the usual one.
+    """
+    found = results_folder(results) / path
+    return found if len(path.parts) == 1 and not path.exists() and (found / _NAME).is_file() else path
 
 
 def new_manifest(kind: str, bundle: Bundle, mode: str, **more: Any) -> dict[str, Any]:

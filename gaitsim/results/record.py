@@ -24,7 +24,7 @@ from gaitsim.simulation.outcome import Outcome
 from gaitsim.units import with_unit
 
 _ROWS = "evaluations.jsonl"
-_MOVE = "make room or rights there, or use --no-save"
+_MOVE = "make room or rights there, name another folder with --results, or use --no-save"
 _TOLD = 20  # runs that the README lists
 
 

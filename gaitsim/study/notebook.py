@@ -14,6 +14,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gaitsim.folders import results_folder
 from gaitsim.study.listening import Silence
 from gaitsim.study.opening import Opening
 
@@ -27,7 +28,6 @@ if TYPE_CHECKING:
     from gaitsim.study.soundness import Soundness
     from gaitsim.study.tuning import Tuning
 
-RESULTS = Path("results")
 File = str | Path
 Settings = Mapping[str, Any]
 
@@ -39,6 +39,7 @@ def opening(
     start: bool = False,
     trust: bool = False,
     candidate: str | None = None,
+    results: File | None = None,
 ) -> Opening:
     """A spec or a result, and how it is opened.
 
@@ -49,9 +50,14 @@ def opening(
         start: Ignore tuned values beside the spec.
         trust: Run components of a result that this machine does not know.
         candidate: Of a result: best, a rank, GENERATION:INDEX, or the number of a run.
+        results: The folder in which a result's name is looked up; None for the usual one.
     """
+    from gaitsim.results.manifest import result_named
+
+    root = None if results is None else Path(results)
     settings = tuple(f"{address}={_text(value)}" for address, value in (set or {}).items())
-    return Opening(Path(path), settings, tuple(map(Path, library)), not start, trust, candidate)
+    named = result_named(Path(path), root)
+    return Opening(named, settings, tuple(map(Path, library)), not start, trust, candidate, root)
 
 
 def run(
@@ -66,7 +72,7 @@ def run(
     out: File | None = None,
     every: str | None = None,
     save: bool = True,
-    results: File = RESULTS,
+    results: File | None = None,
     candidate: str | None = None,
     start: bool = False,
     trust: bool = False,
@@ -85,7 +91,7 @@ def run(
         out: A CSV file for every signal of a single run, in SI.
         every: Of `out`: one instant each "10 ms"; None for all.
         save: Whether a result folder is kept.
-        results: Where result folders go.
+        results: Where result folders go, and names are looked up; None for $GAITSIM_RESULTS, or else results.
         candidate: Of a result: best, a rank, GENERATION:INDEX, or the number of a run.
         start: Ignore tuned values beside the spec.
         trust: Run components of a result that this machine does not know.
@@ -104,8 +110,8 @@ def run(
     varied = [f"{address}={_values(values)}" for address, values in (vary or {}).items()]
     file = None if out is None else Path(out)
     drawn = draws_asked(draws, within, seed, varied, file)
-    opened = opening(path, set, library, start, trust, candidate)
-    runs = prepared(opened, varied, drawn, mode, Places(Path(results) if save else None, file, every), Silence())
+    opened = opening(path, set, library, start, trust, candidate, results)
+    runs = prepared(opened, varied, drawn, mode, Places(_root(results) if save else None, file, every), Silence())
     runs.run(Silence())
     if runs.unsaved:
         logging.getLogger("gaitsim").warning("gaitsim: %s", runs.unsaved)
@@ -122,7 +128,7 @@ def limit(
     points: int = 9,
     mode: Mode = "rapid",
     save: bool = True,
-    results: File = RESULTS,
+    results: File | None = None,
     origin: str | None = None,
     candidate: str | None = None,
     start: bool = False,
@@ -140,7 +146,7 @@ def limit(
         points: Values of the first scan, both ends included.
         mode: rapid or normal.
         save: Whether a result folder is kept.
-        results: Where result folders go.
+        results: Where result folders go, and names are looked up; None for $GAITSIM_RESULTS, or else results.
         origin: As `--from`: a result whose best values are the start.
         candidate: Of a result.
         start: Ignore tuned values beside the spec.
@@ -156,11 +162,11 @@ def limit(
     """
     from gaitsim.study.limits import Scan, hunted
 
-    opened = opening(path, set, library, start, trust, candidate)
+    opened = opening(path, set, library, start, trust, candidate, results)
     ranges = [f"{address}={ends}" for address, ends in vary.items()]
     hunt = hunted(opened, ranges, until, Scan(points, tolerance), origin, mode, Silence())
     hunt.run(Silence().progress("runs"))
-    kept = hunt.kept(Path(results) if save else None)
+    kept = hunt.kept(_root(results) if save else None)
     if kept.error:
         raise kept.error
     return hunt
@@ -210,7 +216,7 @@ def optimize(
     origin: str | None = None,
     adopt: bool = False,
     force: bool = False,
-    results: File = RESULTS,
+    results: File | None = None,
     trust: bool = False,
     library: Sequence[File] = (),
 ) -> Search:
@@ -232,7 +238,7 @@ def optimize(
         origin: As `--from`: tuned, middle, or a result to start at.
         adopt: Write the best values beside the spec.
         force: With `adopt`: also over values that score better.
-        results: Where result folders go.
+        results: Where result folders go, and names are looked up; None for $GAITSIM_RESULTS, or else results.
         trust: Run components of a result that this machine does not know.
         library: More folders of components.
 
@@ -246,13 +252,13 @@ def optimize(
     from gaitsim.study.searches import Request, begun, check_adoption, resumed
     from gaitsim.study.workplace import Workplace
 
-    opened = replace(opening(path, set, library, trust=trust), tuned=False)
+    opened = replace(opening(path, set, library, trust=trust, results=results), tuned=False)
     check_adoption(opened, adopt, force)
     request = Request(opened, algorithm, population, generations, seed, mode, smoke, origin)
     file = None if scheduler_file is None else Path(scheduler_file)
     workplace = Workplace(workers, scheduler is not None or file is not None, scheduler, file)
     workplace.check()
-    tuning = (resumed if resume else begun)(request, Path(results))
+    tuning = (resumed if resume else begun)(request, _root(results))
     began, silence = time.perf_counter(), Silence()
     progress = tuning.run(workplace, lambda progress: None, silence.say)
     wall = time.perf_counter() - began
@@ -325,6 +331,11 @@ def check(
 
 
 _MANY = ("plot", "return_map", "export", "scopes", "formats")
+
+
+def _root(results: File | None) -> Path:
+    """Where result folders go."""
+    return results_folder(None if results is None else Path(results))
 
 
 def _text(value: Any) -> str:

@@ -21,7 +21,8 @@ class Opening:
     path: the spec, or the result folder. settings: overrides of the spec, each as ADDRESS=VALUE.
     folders: of more components. tuned: start at the tuned values beside the spec, if there are some.
     trusted: run components of a result that this machine does not know. candidate: of a result, which one:
-    best, a rank or GENERATION:INDEX of a search, best or the number of a run of a study.
+    best, a rank or GENERATION:INDEX of a search, best or the number of a run of a study. results: the folder in which
+    the name of another result is looked up, if not the usual one.
     """
 
     path: Path
@@ -30,6 +31,7 @@ class Opening:
     tuned: bool = True
     trusted: bool = False
     candidate: str | None = None
+    results: Path | None = None
 
     @property
     def names_result(self) -> bool:
@@ -127,6 +129,7 @@ def started_from(source: Source, opening: Opening, origin: str | None) -> tuple[
     origin: tuned, middle, or a result folder; None changes nothing. Errors: Usage, BadResult, Untrusted.
     """
     from gaitsim.errors import Usage
+    from gaitsim.results.manifest import result_named
     from gaitsim.results.tuned import read_tuned, tuned_path
 
     if origin is None:
@@ -140,7 +143,7 @@ def started_from(source: Source, opening: Opening, origin: str | None) -> tuple[
             raise Usage(f"--from tuned: there is no {path}; make it with optimize --adopt.")
         where, values = str(path), read_tuned(path, free).values
     else:
-        where, result = origin, Opening(Path(origin), trusted=opening.trusted)
+        where, result = origin, Opening(result_named(Path(origin), opening.results), trusted=opening.trusted)
         if not result.names_result:
             raise Usage(f"--from {where}: this is no result; write tuned, middle, or a folder of gaitsim results list.")
         values = dict(result.source().starts)

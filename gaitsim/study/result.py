@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from gaitsim.analysis.replays.replay import Replay, dataset
 from gaitsim.model import Model
-from gaitsim.results.manifest import BadResult, read_manifest
+from gaitsim.results.manifest import BadResult, read_manifest, result_named
 from gaitsim.study.replays import replay_of
 from gaitsim.study.source import Source, source_of_result
 
@@ -116,7 +116,7 @@ def _number(text: str) -> float | int:
 
 
 def load(folder: str | Path, candidate: str = "best", trust: bool = False) -> Result:
-    """A result folder. Errors: BadResult if it is none, or is damaged."""
-    made = Result(Path(folder), str(candidate), trust)
+    """A result by its folder, or by its name in the usual one. Errors: BadResult if it is none, or is damaged."""
+    made = Result(result_named(Path(folder)), str(candidate), trust)
     _ = made.manifest
     return made

@@ -50,7 +50,9 @@ class Places:
             raise CannotSave(f"{out}: {blocked} is a file, so nothing can be written below it; choose another --out.")
         if results is not None and results.exists() and not results.is_dir():
             rule = "this is a file, and results go into a folder of that name"
-            raise CannotSave(f"{results}: {rule}; rename the file, or use --no-save.")
+            raise CannotSave(
+                f"{results}: {rule}; rename the file, name another folder with --results, or use --no-save."
+            )
 
     def spacing(self, models: Sequence[Model]) -> float | None:
         """Seconds from one instant of `out` to the next; None for all. Errors: Usage."""

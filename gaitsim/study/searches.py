@@ -32,7 +32,7 @@ from gaitsim.study.tuning import Tuning
 from gaitsim.whole import PARTIAL
 
 _SMOKE = {"population": 4, "generations": 2}
-_MOVE = "make room or rights there"
+_MOVE = "make room or rights there, or name another folder with --results"
 _LEAST = {"population": 2, "generations": 1, "seed": 0}
 
 

@@ -71,7 +71,8 @@ def test_out_without_permission(capsys: pytest.CaptureFixture[str], monkeypatch:
 def test_a_file_named_results_is_in_the_way(capsys: pytest.CaptureFixture[str]) -> None:
     Path("results").write_text("mine")
     assert refusal(capsys) == (
-        "results: this is a file, and results go into a folder of that name; rename the file, or use --no-save.\n"
+        "results: this is a file, and results go into a folder of that name; "
+        "rename the file, name another folder with --results, or use --no-save.\n"
     )
     with pytest.raises(SystemExit) as ended:
         main(["run", "spec.yaml", "--no-save"])
@@ -102,7 +103,8 @@ def test_what_was_computed_is_printed_if_it_cannot_be_saved(
     code, out, err = gaitsim(capsys, "run", "spec.yaml", "--json")
     assert (code, json.loads(out)["result"]) == (3, None)
     assert err.splitlines()[-1] == (
-        "results: the result cannot be saved (No space left on device); make room or rights there, or use --no-save."
+        "results: the result cannot be saved (No space left on device); "
+        "make room or rights there, name another folder with --results, or use --no-save."
     )
     code, out, err = gaitsim(capsys, "run", "spec.yaml")
     assert (code, "completed: 0.002 s in 2 steps" in out) == (3, True)
