@@ -14,7 +14,7 @@ from gaitsim.spec.resolve import resolve
 from gaitsim.text.document import parse
 
 FOLDER = Path(__file__).parent / "rig"
-MUSCLES = ("geyer2003", "geyer2010", "millard2012", "degroote2016", "rigid_tendon")
+MUSCLES = ("geyer2003", "geyer2010", "millard2012", "millard2012_polynomial", "degroote2016", "rigid_tendon")
 TRIALS = ("isometric", "passive ramp", "active ramp", "lift")
 
 

@@ -15,6 +15,8 @@ from gaitsim.model import Model
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import read_spec, resolve
 
+from .muscle_rig import MUSCLES
+
 modes = pytest.mark.parametrize("mode", ["rapid", "normal"])
 MASS = 0.423880
 SIZES = {"max_isometric_force": 1000.0, "optimal_fiber_length": 0.1, "max_contraction_velocity": 10.0}
@@ -231,7 +233,7 @@ def made(folder: Path, muscle: str, metabolics: str = "umberger2003") -> Model:
     return resolve(read_spec(spec), Library(library_folders(spec)), "spec")
 
 
-@pytest.mark.parametrize("muscle", ["geyer2003", "geyer2010", "millard2012", "degroote2016", "rigid_tendon"])
+@pytest.mark.parametrize("muscle", MUSCLES)
 @pytest.mark.parametrize("metabolics", ["umberger2003", "bhargava2004", "wang2012"])
 def test_every_muscle_has_metabolics_by_one_line(muscle: str, metabolics: str, tmp_path: Path) -> None:
     outcome = Simulator(made(tmp_path, muscle, metabolics)).run(recorded=True)

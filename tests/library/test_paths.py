@@ -16,6 +16,8 @@ from gaitsim.model import Model
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import read_spec, resolve
 
+from .muscle_rig import MUSCLES
+
 modes = pytest.mark.parametrize("mode", ["rapid", "normal"])
 COSINE, CONSTANT = "path/cosine_arm", "path/constant_arm"
 # Muscle, joint: kind of arm, r_0 in m (positive opens the joint), phi_max, phi_ref in deg, rho.
@@ -159,7 +161,7 @@ def made(folder: Path, text: str) -> Model:
 
 
 @modes
-@pytest.mark.parametrize("muscle", ["geyer2010", "millard2012", "degroote2016", "rigid_tendon"])
+@pytest.mark.parametrize("muscle", [muscle for muscle in MUSCLES if muscle != "geyer2003"])
 def test_a_muscle_across_two_joints(muscle: str, mode: Any, tmp_path: Path) -> None:
     found = Simulator(made(tmp_path, HINGES.replace("MUSCLE", muscle)), mode).run(recorded=True).trajectory
     assert found is not None
