@@ -122,13 +122,19 @@ class Products:
 def default_figures(replays: Sequence[Replay]) -> list[Callable[[], list[Drawing]]]:
     """What is drawn of any result: several runs over each other, and the figures of each."""
     from gaitsim.analysis.report.figures import FIGURES
-    from gaitsim.analysis.signals.plots import overview
 
     def of_run(figures: Figures, replay: Replay) -> Callable[[], list[Drawing]]:
         return lambda: [_of_run(drawing, replay, len(replays) > 1) for drawing in figures(replay)]
 
-    over = [lambda: overview(replays)] if len(replays) > 1 else []
+    over = overlaid_figures(replays) if len(replays) > 1 else []
     return [*over, *(of_run(figures, replay) for replay in replays for figures in FIGURES)]
+
+
+def overlaid_figures(replays: Sequence[Replay]) -> list[Callable[[], list[Drawing]]]:
+    """What is drawn of several runs over one another."""
+    from gaitsim.analysis.report.figures import OVERLAYS
+
+    return [partial(overlay, replays) for overlay in OVERLAYS]
 
 
 def _of_run(drawing: Drawing, replay: Replay, several: bool) -> Drawing:

@@ -81,6 +81,11 @@ class Replay:
         part = replace(whole, times=whole.times[kept], values=whole.values[kept])
         return replace(self, outcome=replace(self.outcome, trajectory=part))
 
+    def counted_from(self, begin: float) -> Replay:
+        """The same instants, with time counted from `begin` in seconds; for pictures of outputs over one another."""
+        whole = self.trajectory
+        return replace(self, outcome=replace(self.outcome, trajectory=replace(whole, times=whole.times - begin)))
+
     def every(self, interval: float) -> Replay:
         """The same run, of which one instant in `interval` seconds is looked at, the first included.
 

@@ -1,9 +1,12 @@
-"""Every function that makes figures of a run; each decides by the model's parts whether it has some."""
+"""Every function that makes figures of a run, or of several over one another; each decides whether it has some."""
 
 from __future__ import annotations
 
-from gaitsim.analysis.drawings.drawing import Figures
+from collections.abc import Callable, Sequence
+
+from gaitsim.analysis.drawings.drawing import Drawing, Figures
 from gaitsim.analysis.gait.figures import gait_figures, lacking_gait
+from gaitsim.analysis.gait.overlay import gait_overlays
 from gaitsim.analysis.hopping.figures import hopping_figures
 from gaitsim.analysis.muscles.energies import balance, energy_figures
 from gaitsim.analysis.muscles.figures import muscle_figures
@@ -12,6 +15,7 @@ from gaitsim.analysis.searches.convergence import convergence_figures, tuned_fig
 from gaitsim.analysis.searches.draws import draws_figures
 from gaitsim.analysis.searches.sweep import sweep_figures
 from gaitsim.analysis.signals.motion import motion_figures
+from gaitsim.analysis.signals.plots import overview
 
 FIGURES: tuple[Figures, ...] = (
     sweep_figures,
@@ -24,6 +28,9 @@ FIGURES: tuple[Figures, ...] = (
     muscle_figures,
     motion_figures,
 )
+
+# Of several runs over one another.
+OVERLAYS: tuple[Callable[[Sequence[Replay]], list[Drawing]], ...] = (gait_overlays, overview)
 
 
 def missing(replay: Replay) -> list[str]:

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 
 from gaitsim.analysis.drawings import style
 from gaitsim.analysis.drawings.drawing import Drawing
-from gaitsim.analysis.replays.cycles import arriving, thinned
+from gaitsim.analysis.gait.legs import two_legs
+from gaitsim.analysis.replays.cycles import arriving, last_cycles, thinned
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.signals.pattern import NoSuchSignal, matching
 from gaitsim.analysis.signals.return_map import FixedPoint, fixed_point, maxima
@@ -26,10 +27,14 @@ if TYPE_CHECKING:
 Floats = NDArray[np.float64]
 _LINES = 4  # in one panel
 _PANELS = 4  # in one figure
+_CYCLES = 3  # in an overview
 _EVENTS = 3  # give two points of a return map: fewer are no map
-_OVERVIEW = {  # name of the file: title, kind of the parts, names of their signals (all if none)
-    "motion": ("Coordinates of the joints", "joint", ("position", "angle")),
-    "control": ("What controllers send and remember", "controller", ()),
+_MANY = 16  # signals of one kind in an overview; of more, --plot draws those that are asked for
+_OVERVIEW = {  # name of the file: title, kinds of the parts, names of their signals (all if none)
+    "motion": ("Coordinates of the joints", ("joint",), ("position", "angle")),
+    "ground": ("Forces of the ground", ("contact", "leg"), ("force",)),
+    "muscles": ("Muscles", ("muscle",), ("activation", "force")),
+    "control": ("What controllers send and remember", ("controller",), ()),
 }
 
 
@@ -49,19 +54,33 @@ def against_time(replays: Sequence[Replay], text: str) -> list[Drawing]:
 
 
 def overview(replays: Sequence[Replay]) -> list[Drawing]:
-    """Joint coordinates, and what controllers send, against time: of any model that has some."""
+    """Coordinates, ground forces, muscles and controllers of any model, over time; of walkers, only the first and last.
+
+    Runs that all completed and have cycles are drawn over their last ones, from touchdown on.
+    """
+    drawn, said = _last_cycles(replays)
+    walking = all(two_legs(replay) for replay in replays)
     drawings = []
-    for name, (title, kind, wanted) in _OVERVIEW.items():
+    for name, (title, kinds, wanted) in _OVERVIEW.items():
         found: dict[str, Signal] = {}
         for replay in replays:
-            mine = {part.address for part in replay.model.parts if part.type.kind == kind}
+            mine = {part.address for part in replay.model.parts if part.type.kind in kinds}
             for signal in recorded_signals(replay.model):
                 owner, _, word = signal.address.rpartition(".")
                 if owner in mine and (not wanted or word in wanted):
                     found.setdefault(signal.address, signal)
-        if found:
-            drawings += _over_time(replays, list(found.values()), name, title, "")
+        if found and len(found) <= _MANY and not (walking and name in ("ground", "muscles")):
+            drawings += _over_time(drawn, list(found.values()), name, f"{title}{said}", "")
     return drawings
+
+
+def _last_cycles(replays: Sequence[Replay]) -> tuple[Sequence[Replay], str]:
+    """Runs whose time begins at a touchdown, and words for that; the whole runs unless all have cycles."""
+    spans = [last_cycles(replay, _CYCLES) if replay.outcome.status == "completed" else None for replay in replays]
+    parts = [replay.between(*span) for replay, span in zip(replays, spans, strict=True) if span]
+    if len(parts) < len(replays):
+        return replays, ""
+    return [part.counted_from(float(part.times[0])) for part in parts], ", last cycles from touchdown"
 
 
 def _over_time(replays: Sequence[Replay], signals: Sequence[Signal], name: str, title: str, text: str) -> list[Drawing]:
