@@ -77,7 +77,10 @@ class Recording:
 
 @dataclass(frozen=True)
 class Part:
-    """One primitive in its place."""
+    """One primitive in its place.
+
+    attachments: the frame, or the body, that each is on; places: of those that lie beside it, where.
+    """
 
     address: str
     type: Primitive
@@ -90,6 +93,13 @@ class Part:
     measure: bool
     mark: Mark
     series: Mapping[str, Recording] = field(default_factory=dict)
+    places: Mapping[str, Sequence[Place]] = field(default_factory=dict)
+
+    @property
+    def coordinates(self) -> tuple[int, ...]:
+        """The numbers that say where its points and its attachments beside a frame lie."""
+        named = (*self.points.values(), *self.places.values())
+        return tuple(number for places in named for place in places for number in place.at)
 
 
 @dataclass(frozen=True)

@@ -10,13 +10,14 @@ from typing import Any
 import mujoco
 
 from gaitsim.compiler.mechanics.making import Made
-from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Point, Touching, world_frames
+from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Touching, world_frames
 from gaitsim.compiler.mechanics.ties import Tie
-from gaitsim.compiler.mechanics.verbs import Mechanics, numbers_of
+from gaitsim.compiler.mechanics.tree import Branch, branches, check_axes
+from gaitsim.compiler.mechanics.verbs import Mechanics, beside_frames, numbers_of
 from gaitsim.component import Refused
 from gaitsim.components.load import function_of, raised
-from gaitsim.errors import Fault, Faults, InvalidComponent, InvalidSpec
-from gaitsim.model import WORLD, Model, Part
+from gaitsim.errors import Fault, InvalidComponent, InvalidSpec
+from gaitsim.model import Model, Part
 
 _INTEGRATORS = {
     "euler": mujoco.mjtIntegrator.mjINT_EULER,
@@ -74,7 +75,8 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
     made = Made()
 
     def build(part: Part, body: Any = None) -> None:
-        mechanics = Mechanics(spec, part, frames, made, index[part.address], dressed, body)
+        beside = beside_frames(part, values)
+        mechanics = Mechanics(spec, part, frames, made, index[part.address], dressed, body, beside)
         p = numbers_of(part, values, frames)
         try:
             function_of(part.type.cls, "build")(p, mechanics)
@@ -83,16 +85,18 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
         except Exception as error:
             raise InvalidComponent(raised(part.type, "build", part.address, error)) from error
 
-    order = body_order(model)
-    for segment, joint in order:
-        parent = frames.point(joint.attachments["parent"])
-        body = parent.body.add_body(name=segment.address, info=str(segment.mark))
-        frames.places[segment.address] = Point(body, (0.0, 0.0, 0.0))
-        build(segment, body)
-        child = frames.point(joint.attachments["child"])
+    order = branches(model, values)
+    for branch in order:
+        parent = _end(branch, "parent", values, frames)
+        body = parent.body.add_body(name=branch.segment.address, info=str(branch.segment.mark))
+        frames.places[branch.segment.address] = Point(body, (0.0, 0.0, 0.0))
+        build(branch.segment, body)
+        child = _end(branch, "child", values, frames)
         body.pos = [a - b for a, b in zip(parent.position, child.position, strict=True)]
-        build(joint)
-    done = {part.address for pair in order for part in pair}
+        for joint in branch.joints:
+            build(joint)
+        check_axes(branch, body)
+    done = {part.address for branch in order for part in (branch.segment, *branch.joints)}
     for part in model.parts:
         if "build" in part.type.functions and part.address not in done:
             build(part)
@@ -120,7 +124,7 @@ def _integrator(model: Model, compiled: Any) -> Any:
     chosen = model.simulate.integrator
     damped = compiled.actuator_gainprm[:, 2].nonzero()[0]
     if chosen == "rk4" and damped.size:
-        address = _owner(compiled.actuator(int(damped[0])).name)
+        address = compiled.actuator(int(damped[0])).name.rpartition(".")[0]
         mark = next(part.mark for part in model.parts if part.address == address)
         rule = "its velocity terms need an implicit scheme, and integrator: rk4 is explicit; choose automatic."
         raise InvalidSpec(Fault(rule, mark, address))
@@ -142,49 +146,10 @@ def _unused_stages(compiled: Any) -> int:
     return 0 if used else int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
 
 
-def body_order(model: Model) -> list[tuple[Part, Part]]:
-    """Segments and the joints that carry them, from the ground upwards.
-
-    Errors: InvalidSpec for a segment without a joint, with two, or in a ring.
-    """
-    faults = Faults()
-    segments = {part.address: part for part in model.parts if part.type.frames}
-    joints = [part for part in model.parts if {"parent", "child"} <= set(part.attachments)]
-    carried: dict[str, Part] = {}
-    children_of_ground: set[str] = set()
-    for joint in joints:
-        child = _owner(joint.attachments["child"])
-        if child == WORLD:
-            rule = "it would carry the ground; exchange parent and child"
-            faults.add(f"{rule}.", joint.mark, joint.address)
-            children_of_ground.add(_owner(joint.attachments["parent"]))
-            continue
-        if child in carried:
-            rule = f"{child} is carried by {carried[child].address} and by {joint.address}"
-            faults.add(f"{rule}; a segment has one joint above it.", joint.mark, joint.address)
-        carried.setdefault(child, joint)
-    for address, segment in segments.items():
-        if address not in carried and address not in children_of_ground:
-            first = next(iter(segment.type.frames))
-            rule = f"no joint carries it; add one with child: {address}.{first}"
-            faults.add(f"{rule}.", segment.mark, address)
-    faults.raise_if_any()
-    ordered: list[tuple[Part, Part]] = []
-    placed = {WORLD}
-    while len(ordered) < len(segments):
-        ready = [
-            (segments[child], joint)
-            for child, joint in carried.items()
-            if child not in placed and _owner(joint.attachments["parent"]) in placed
-        ]
-        if not ready:
-            ring = ", ".join(address for address in segments if address not in placed)
-            joint = next(j for c, j in carried.items() if c not in placed)
-            rule = f"these segments carry each other in a ring: {ring}; fasten one to world."
-            raise InvalidSpec(Fault(rule, joint.mark, joint.address))
-        ordered += ready
-        placed |= {segment.address for segment, _ in ready}
-    return ordered
+def _end(branch: Branch, name: str, values: Sequence[float], frames: Frames) -> Point:
+    """Where the parent or the child of a branch's joints is."""
+    joint = branch.joints[0]
+    return frames.point(joint.attachments[name], beside_frames(joint, values).get(name, (0, 0, 0)))
 
 
 _KINDS = {
@@ -210,10 +175,6 @@ def tie_place(model: Any, tie: Tie) -> int:
     element = mujoco.mj_name2id(model, _KINDS[tie.element.kind], tie.element.name)
     first = getattr(model, _FIRST[tie.field])[element] if tie.field in _FIRST else element
     return int(first) + tie.index
-
-
-def _owner(frame: str) -> str:
-    return frame if frame == WORLD else frame.rpartition(".")[0]
 
 
 def _compiled(spec: Any, parts: Mapping[str, Part]) -> Any:

@@ -91,11 +91,8 @@ def _numbers(model: Model) -> Iterator[tuple[Number, Part | None]]:
 def _roots(model: Model) -> Iterator[tuple[int, Part | None]]:
     """The numbers that parts, connections and initial values have."""
     for part in _parts(model):
-        for index in (*part.numbers.values(), *part.constants.values()):
+        for index in (*part.numbers.values(), *part.constants.values(), *part.coordinates):
             yield index, part
-        for places in part.points.values():
-            for place in places:
-                yield from ((index, part) for index in place.at)
     for connection in model.connections:
         yield from ((index, None) for index in (connection.delay, connection.initial) if index is not None)
     yield from ((index, None) for index in model.initial.values())

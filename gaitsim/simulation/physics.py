@@ -46,7 +46,7 @@ class Physics:
         for part in self.program.model.parts:
             if "build" in part.type.functions:
                 found += part.numbers.values()
-                found += [i for places in part.points.values() for place in places for i in place.at]
+                found += part.coordinates
         return tuple(found)
 
     def pose(self, values: Sequence[float]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from gaitsim.component import Parameter
@@ -44,10 +44,10 @@ class Wiring:
         attachments = {
             name: self._frame(text, f"{part.address}.{name}", part.mark) for name, text in part.attachments.items()
         }
-        points = {
-            name: [Place(self._body_or_frame(p.frame), p.at) for p in places] for name, places in part.points.items()
-        }
-        return replace(part, constants=constants, attachments=attachments, points=points)
+        points, places = self._followed(part.points), self._followed(part.places)
+        # A place that could not be read has been told of already.
+        attachments |= {name: each[0].frame if each else WORLD for name, each in places.items()}
+        return replace(part, constants=constants, attachments=attachments, points=points, places=places)
 
     def initial(self, text: str, mark: Mark) -> tuple[str, str] | None:
         """The output or state that an initial value is for, and its unit; None after a fault."""
@@ -64,6 +64,13 @@ class Wiring:
         known += [f"{a}.{name}" for a, p in self.parts.items() for name in p.type.states]
         self.faults.add(f"{text} is no coordinate and no state. {did_you_mean(text, known)}", mark, "initial")
         return None
+
+    def _followed(self, points: Mapping[str, Sequence[Place]]) -> dict[str, list[Place]]:
+        """Points by name, each on a primitive's frame or body."""
+        return {
+            name: [Place(self._body_or_frame(place.frame), place.at) for place in places]
+            for name, places in points.items()
+        }
 
     def _follow(self, name: str, aliases: Mapping[str, str]) -> str:
         """Through the masks: leg.load -> leg.foot.load -> leg.foot.contact.force."""

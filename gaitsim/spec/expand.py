@@ -13,7 +13,7 @@ from gaitsim.components.composite import ComponentFile, Composite
 from gaitsim.components.find import Library, at
 from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Faults, GaitsimError, Mark, did_you_mean, nearest, with_article
-from gaitsim.model import Group, Part, Recording
+from gaitsim.model import Group, Part, Place, Recording
 from gaitsim.spec.inheritance import merged, without
 from gaitsim.spec.numbers import Names, NumberTable
 from gaitsim.spec.points import PointReader
@@ -175,8 +175,8 @@ class Expansion:
                 f"{address}.{name}", f"{where.logical}.{name}", given, declared, names, default=name not in node.entries
             )
             inside.names[name] = (index, declared.unit)
-        inside.attachments = dict.fromkeys(found.attachments, "")
-        inside.attachments |= self.ports.attachments(found.attachments, node, where)
+        frames, inside.places = self._fastened(found.attachments, node, where)
+        inside.attachments = dict.fromkeys(found.attachments, "") | frames
         self.frames.update({f"{address}.{n}": f"{address}.{t}" for n, t in found.frames.items()})
         self.outputs.update({f"{address}.{n}": f"{address}.{t}" for n, t in found.outputs.items()})
         for name, targets in found.inputs.items():
@@ -223,6 +223,7 @@ class Expansion:
         for name, link in found.links.items():
             self.ports.link(name, link, node, where)
         self.ports.to(node, list(found.outputs), where)
+        frames, places = self._fastened(found.attachments, node, where)
         self.parts.append(
             Part(
                 address,
@@ -230,15 +231,30 @@ class Expansion:
                 numbers,
                 {},
                 {name: self.ports.option(name, o, node, where) for name, o in found.options.items()},
-                self.ports.attachments(found.attachments, node, where),
+                frames,
                 {name: self.points.later(name, node, where) for name in found.points},
                 where.side == "l",
                 where.measure,
                 where.mark,
                 self._series(found, node, where),
+                places,
             )
         )
         self._inner_parts(found, node, where, {n: (numbers[n], d.unit) for n, d in found.parameters.items()})
+
+    def _fastened(
+        self, names: Iterable[str], node: Mapping, where: Where
+    ) -> tuple[dict[str, str], dict[str, list[Place]]]:
+        """What an entry is fastened to: frames, and places beside a frame."""
+        places = {}
+        for name in names:
+            given = node.entries.get(name)
+            text = given.value if isinstance(given, Scalar) else None
+            if isinstance(given, Mapping):
+                places[name] = self.points.one_later(name, given, where)
+            elif isinstance(text, str) and text[:1] == "=" and text[1:] in where.scope.places:
+                places[name] = where.scope.places[text[1:]]
+        return self.ports.attachments([name for name in names if name not in places], node, where), places
 
     def _series(self, found: Primitive, node: Mapping, where: Where) -> dict[str, Recording]:
         """The recorded curves of a part."""

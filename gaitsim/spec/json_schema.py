@@ -77,7 +77,10 @@ def _entry(component: ComponentFile) -> dict[str, Any]:
     for name, parameter in component.parameters.items():
         properties[name] = _described("value", parameter.doc, parameter.unit, parameter.source)
     for name in component.attachments:
-        properties[name] = {"type": "string", "description": "A frame, such as thigh.distal."}
+        place = (
+            "A frame, such as thigh.distal, or a place beside one, such as {on: thigh.distal, at: [1 cm, 0 m, 0 m]}."
+        )
+        properties[name] = {"type": ["string", "object"], "description": place}
     for name, link in component.links.items() if not isinstance(component, Composite) else ():
         properties[name] = {"type": "string", "description": f"{link.doc} A part, such as ankle."}
     if isinstance(component, Composite):

@@ -27,7 +27,7 @@ class PointReader:
     faults: Faults
     frames: Map[str, str]
     broken: Callable[[str], bool]
-    _waiting: list[tuple[str, Sequence, Where, list[Place]]] = field(default_factory=list)
+    _waiting: list[tuple[str, Node, Where, list[Place]]] = field(default_factory=list)
 
     def later(self, name: str, node: Mapping, where: Where) -> list[Place]:
         """The points of an entry, empty until `read_all`."""
@@ -39,13 +39,19 @@ class PointReader:
             self.faults.add(rule, given.mark if given else where.mark, where.address)
         return places
 
+    def one_later(self, name: str, node: Mapping, where: Where) -> list[Place]:
+        """The place that an attachment says, `{on: pelvis.center, at: [...]}`; empty until `read_all`."""
+        places = list[Place]()
+        self._waiting.append((name, node, where, places))
+        return places
+
     def read_all(self) -> None:
-        """Read every list that waits."""
+        """Read every point that waits."""
         for name, node, where, places in self._waiting:
-            for i, item in enumerate(node.items):
-                place = self._place(f"{name}.{i}", item, where)
-                if place:
-                    places.append(place)
+            items = node.items if isinstance(node, Sequence) else (node,)
+            names = [f"{name}.{i}" for i in range(len(items))] if isinstance(node, Sequence) else [name]
+            found = [self._place(each, item, where) for each, item in zip(names, items, strict=True)]
+            places += [place for place in found if place]
         self._waiting.clear()
 
     def _place(self, name: str, node: Node, where: Where) -> Place | None:

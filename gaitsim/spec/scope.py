@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from gaitsim.errors import Faults, Mark, did_you_mean
-from gaitsim.model import WORLD
+from gaitsim.model import WORLD, Place
 from gaitsim.spec.numbers import Names
 from gaitsim.text.document import Node
 
@@ -24,6 +24,7 @@ class Scope:
     reference: str = ""
     children: dict[str, str] = field(default_factory=dict)  # name -> address
     attachments: dict[str, str] = field(default_factory=dict)
+    places: dict[str, list[Place]] = field(default_factory=dict)  # attachments that are places beside a frame
     sided: dict[str, tuple[str, ...]] = field(default_factory=dict)
     outer: Scope | None = None
 
@@ -57,6 +58,10 @@ def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:
     if text == WORLD:
         return WORLD
     if text.startswith("="):
+        if text[1:] in where.scope.places:
+            rule = f"{text} is a place beside a frame, and this needs a frame; give the mask a frame for it."
+            faults.add(rule, mark, where.address)
+            return None
         found = where.scope.attachments.get(text[1:])
         if found is None:
             hint = did_you_mean(text[1:], where.scope.attachments)

@@ -104,7 +104,8 @@ def test_what_mujoco_refuses_is_named_by_its_line_in_the_spec() -> None:
             "parent: upper.distal, child: lower.proximal",
             "parent: lower.distal, child: upper.distal",
             "spec.yaml:6:3: bottom",
-            "upper is carried by top and by bottom; a segment has one joint above it.",
+            "upper is carried by top and, at another place, by bottom; "
+            "a segment has one joint above it, or several with the same parent and child.",
         ),
         (
             "parent: world",

@@ -15,14 +15,15 @@ from gaitsim.compiler.mechanics.ties import Element
 class Contacts(Sensors):
     """Verbs that make the ground, and keep bodies out of it."""
 
-    def ground(self, angle: float = 0.0, edges: Sequence[tuple[float, float]] = ()) -> None:
+    def ground(self, angle: float = 0.0, edges: Sequence[tuple[float, float]] = (), across: float = 0.0) -> None:
         """The ground of the whole model: it rises forwards by an angle (rad) and has steps at its edges.
 
-        An edge is a position along it and the height behind it, in m. `push` and `position_of` of
-        the part around this one count from it if they are given this one's name.
+        It may rise to the left as well, by an angle `across` about the way forwards along it. An edge is a position
+        along the ground and the height behind it, in m. `push` and `position_of` of the part around this one
+        count from it if they are given this one's name.
         """
-        add_surface(self.spec, self._name("surface"), angle, self._info)
-        add_ground(self.spec, angle, edges, self._info)
+        add_surface(self.spec, self._name("surface"), angle, across, self._info)
+        add_ground(self.spec, angle, across, edges, self._info)
 
     def collide(self, place: Point, radius: float, friction: float, solref: Vector, solimp: Vector) -> Element:
         """A sphere that MuJoCo keeps out of the ground; gives a sensor of its force on the ground, in N."""

@@ -7,25 +7,29 @@ from collections.abc import Sequence
 from typing import Any
 
 import mujoco
+import numpy as np
 
 GROUND = "world.ground"
 _FAR = 1000.0  # m: how far the first and the last tread reach
 _THICK = 1.0  # m
 
 
-def add_surface(spec: Any, name: str, angle: float, info: str) -> None:
-    """A site whose x axis runs along ground that rises forwards by an angle, and whose z axis is its normal."""
-    spec.worldbody.add_site(name=name, quat=_tilt(angle), size=[0.005] * 3, info=info)
+def add_surface(spec: Any, name: str, angle: float, across: float, info: str) -> None:
+    """A site whose x axis runs along ground that rises forwards by an angle, and whose z axis is its normal.
+
+    across: by how much the ground rises to the left, about that x axis.
+    """
+    spec.worldbody.add_site(name=name, quat=_tilt(angle, across), size=[0.005] * 3, info=info)
 
 
-def add_ground(spec: Any, angle: float, edges: Sequence[tuple[float, float]], info: str) -> None:
+def add_ground(spec: Any, angle: float, across: float, edges: Sequence[tuple[float, float]], info: str) -> None:
     """Geoms that `Mechanics.collide` keeps spheres out of; a second part may ask for the same ground.
 
     Errors: ValueError if the ground is another already.
     """
     # At an edge without a height a sphere would touch two boxes, and so be held twice.
     level = all(height == 0 for _, height in edges)
-    wanted = [_plane(angle)] if level else _treads(angle, edges)
+    wanted = [_plane(angle, across)] if level else _treads(angle, edges)
     present = [geom for geom in spec.worldbody.geoms if geom.name.startswith(GROUND)]
     if present:
         if not _same(present, wanted):
@@ -36,8 +40,9 @@ def add_ground(spec: Any, angle: float, edges: Sequence[tuple[float, float]], in
         spec.worldbody.add_geom(name=name, contype=1, conaffinity=0, info=info, **shape)
 
 
-def _plane(angle: float) -> dict[str, Any]:
-    return {"type": mujoco.mjtGeom.mjGEOM_PLANE, "size": [10, 10, 0.1], "pos": [0, 0, 0], "quat": _tilt(angle)}
+def _plane(angle: float, across: float) -> dict[str, Any]:
+    quat = _tilt(angle, across)
+    return {"type": mujoco.mjtGeom.mjGEOM_PLANE, "size": [10, 10, 0.1], "pos": [0, 0, 0], "quat": quat}
 
 
 def _treads(angle: float, edges: Sequence[tuple[float, float]]) -> list[dict[str, Any]]:
@@ -55,9 +60,14 @@ def _treads(angle: float, edges: Sequence[tuple[float, float]]) -> list[dict[str
     return boxes
 
 
-def _tilt(angle: float) -> list[float]:
+def _tilt(angle: float, across: float = 0.0) -> list[float]:
     # About y, which points to the left, a positive turn would lower what is in front.
-    return [math.cos(angle / 2), 0.0, -math.sin(angle / 2), 0.0]
+    forwards = [math.cos(angle / 2), 0.0, -math.sin(angle / 2), 0.0]
+    if across == 0:
+        return forwards
+    both = np.zeros(4)
+    mujoco.mju_mulQuat(both, np.array(forwards), np.array([math.cos(across / 2), math.sin(across / 2), 0.0, 0.0]))
+    return [float(part) for part in both]
 
 
 def _same(present: Sequence[Any], wanted: Sequence[dict[str, Any]]) -> bool:

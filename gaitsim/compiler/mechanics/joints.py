@@ -53,7 +53,7 @@ class Joints(Making):
         self.made.lifts.append(lift.name)
 
     def _joint(self, kind: Any, axis: Vector, suffix: str, damping: float) -> Element:
-        child = self.frames.point(self.part.attachments["child"])
+        child = self.attached("child")
         child.body.add_joint(
             name=self._name(suffix),
             type=kind,

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -39,6 +39,7 @@ class Making:
     index: int
     dressed: bool = True
     own_body: Any = None
+    beside: Mapping[str, Vector] = field(default_factory=dict)  # how far attachments are from their frames
 
     @property
     def _info(self) -> str:
@@ -53,7 +54,8 @@ class Making:
 
     def attached(self, name: str, offset: Vector = (0, 0, 0)) -> Point:
         """The place of one of the part's attachments, moved by an offset in m."""
-        return self.frames.point(self.part.attachments[name], self._mirrored(offset))
+        at = self.frames.point(self.part.attachments[name], self.beside.get(name, (0, 0, 0)))
+        return Point(at.body, _sum(at.position, self._mirrored(offset)))
 
     def _site(self, suffix: str, point: Point, radius: float = 0.005) -> str:
         name = self._name(suffix)
@@ -63,3 +65,8 @@ class Making:
     @property
     def _massless(self) -> dict[str, Any]:
         return {"contype": 0, "conaffinity": 0, "mass": 0, "info": self._info}
+
+
+def _sum(first: Vector, second: Vector) -> tuple[float, float, float]:
+    x, y, z = (a + b for a, b in zip(first, second, strict=True))
+    return x, y, z

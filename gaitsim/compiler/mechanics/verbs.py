@@ -34,5 +34,12 @@ def numbers_of(part: Part, values: Sequence[float], frames: Frames) -> SimpleNam
     return SimpleNamespace(**numbers, **part.options, **points, **series)
 
 
+def beside_frames(part: Part, values: Sequence[float]) -> dict[str, Vector]:
+    """How far each of a part's attachments is from its frame, in m; those that are on it are left out."""
+    return {
+        name: _mirrored_point([values[i] for i in places[0].at], part.mirrored) for name, places in part.places.items()
+    }
+
+
 def _mirrored_point(at: Vector, mirrored: bool) -> Vector:
     return (at[0], -at[1], at[2]) if mirrored else at

@@ -1,0 +1,111 @@
+"""The tree of bodies: which segment is carried by which joints, from the ground upwards."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import mujoco
+import numpy as np
+
+from gaitsim.errors import Fault, Faults, InvalidSpec
+from gaitsim.model import WORLD, Model, Part
+
+_FLAT = 0.02  # of three unit axes: a volume below it, as of axes 1 deg from one plane, is none
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A segment and the joints that carry it: one, or several with the same parent and child, outermost first."""
+
+    segment: Part
+    joints: tuple[Part, ...]
+
+
+def branches(model: Model, values: Sequence[float]) -> list[Branch]:
+    """All segments in an order in which each comes after the one that carries it.
+
+    Errors: InvalidSpec for a segment without a joint, with joints at different places, or in a ring.
+    """
+    faults = Faults()
+    segments = {part.address: part for part in model.parts if part.type.frames}
+    carried: dict[str, list[Part]] = {}
+    children_of_ground: set[str] = set()
+    for joint in (part for part in model.parts if {"parent", "child"} <= set(part.attachments)):
+        child = _owner(joint.attachments["child"], segments)
+        above = carried.setdefault(child, [])
+        if child == WORLD:
+            faults.add("it would carry the ground; exchange parent and child.", joint.mark, joint.address)
+            children_of_ground.add(_owner(joint.attachments["parent"], segments))
+        elif above and _ends(above[0], values) != _ends(joint, values):
+            rule = f"{child} is carried by {above[0].address} and, at another place, by {joint.address}"
+            move = "a segment has one joint above it, or several with the same parent and child"
+            faults.add(f"{rule}; {move}.", joint.mark, joint.address)
+        else:
+            above.append(joint)
+    carried.pop(WORLD, None)
+    for address, segment in segments.items():
+        if address not in carried and address not in children_of_ground:
+            first = next(iter(segment.type.frames))
+            rule = f"no joint carries it; add one with child: {address}.{first}"
+            faults.add(f"{rule}.", segment.mark, address)
+    faults.raise_if_any()
+    return _ordered(segments, carried)
+
+
+def _ordered(segments: dict[str, Part], carried: dict[str, list[Part]]) -> list[Branch]:
+    ordered: list[Branch] = []
+    placed = {WORLD}
+    while len(ordered) < len(segments):
+        ready = [
+            Branch(segments[child], tuple(joints))
+            for child, joints in carried.items()
+            if child not in placed and _owner(joints[0].attachments["parent"], segments) in placed
+        ]
+        if not ready:
+            ring = ", ".join(address for address in segments if address not in placed)
+            joint = next(joints[0] for child, joints in carried.items() if child not in placed)
+            rule = f"these segments carry each other in a ring: {ring}; fasten one to world."
+            raise InvalidSpec(Fault(rule, joint.mark, joint.address))
+        ordered += ready
+        placed |= {branch.segment.address for branch in ready}
+    return ordered
+
+
+def check_axes(branch: Branch, body: Any) -> None:
+    """Whether the hinges of a body turn it in as many ways as there are hinges, and its slides likewise.
+
+    Errors: InvalidSpec at the first joint that adds no way of its own.
+    """
+    parts = {joint.address: joint for joint in branch.joints}
+    for kind, does in ((mujoco.mjtJoint.mjJNT_HINGE, "turn"), (mujoco.mjtJoint.mjJNT_SLIDE, "move")):
+        axes: list[Any] = []
+        names: list[str] = []
+        for made in (joint for joint in body.joints if joint.type == kind):
+            length = float(np.linalg.norm(made.axis))
+            if length == 0:
+                return  # MuJoCo says so
+            axes.append(np.array(made.axis) / length)
+            names.append(made.name)
+            if len(axes) > 3 or np.linalg.svd(np.array(axes), compute_uv=False)[-1] < _FLAT:
+                part = parts.get(made.name) or parts[made.name.rpartition(".")[0]]
+                before = " and ".join(names[:-1])
+                rule = f"its axis adds no way to {does} {branch.segment.address} to {before}"
+                move = "choose an axis out of their plane" if len(axes) == 3 else "choose another axis, or remove it"
+                raise InvalidSpec(Fault(f"{rule}; {move}.", part.mark, part.address))
+
+
+def _owner(frame: str, segments: dict[str, Part]) -> str:
+    """The segment that a frame, or a body, is of."""
+    return frame if frame == WORLD or frame in segments else frame.rpartition(".")[0]
+
+
+def _ends(joint: Part, values: Sequence[float]) -> list[tuple[str, tuple[float, ...]]]:
+    """Frame and place beside it of a joint's two ends."""
+    ends = []
+    for name in ("parent", "child"):
+        places = joint.places.get(name, ())
+        at = tuple(values[i] for place in places for i in place.at) or (0.0, 0.0, 0.0)
+        ends.append((joint.attachments[name], at))
+    return ends
