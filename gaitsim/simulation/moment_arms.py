@@ -20,6 +20,7 @@ _FREE = np.radians(150.0)  # to either side, of a hinge that declares no limits
 _POINTS = 601
 _SMOOTH = 10  # of these points one is enough where the arm is a function of the angle
 _TURN = 1e-6  # rad, for the derivative
+_SAGITTAL = 0.9  # of an axis of length 1: its part to the left, if it is nearer to that way than 26 deg
 _NOTHING = 1e-6  # m; a path that runs through the axis has no side
 
 
@@ -30,7 +31,9 @@ class MomentArm:
     muscle: the address of what pulls, or of the path if that is no muscle's.
     path: the component that has the arm; one of a path of points is told from its `points`.
     limited: whether the hinge says where it ends.
-    backwards: whether the child, hanging, turns backwards as the angle grows: about the axis to the left.
+    backwards: whether the child, hanging, turns backwards as the angle grows: about the axis to the left. None if it
+        turns out of the sagittal plane.
+    alone: whether the hinge is a whole joint; an arm over one hinge of several depends on the angles of the others.
     initial: the arm in the initial pose.
     Angles in rad, arms and lengths in m.
     """
@@ -40,7 +43,8 @@ class MomentArm:
     hinge: Part
     points: bool
     limited: bool
-    backwards: bool
+    backwards: bool | None
+    alone: bool
     initial: float
     angles: Floats
     arms: Floats
@@ -90,14 +94,16 @@ class _Hinge:
     joint: str
     place: int
     limited: bool
-    backwards: bool
+    backwards: bool | None
+    alone: bool
     now: float
     angles: Floats
 
     def arm(
         self, muscle: str, path: Part, points: bool, now: float, angles: Floats, arms: Floats, lengths: Floats
     ) -> MomentArm:
-        return MomentArm(muscle, path, self.part, points, self.limited, self.backwards, now, angles, arms, lengths)
+        way = (self.limited, self.backwards, self.alone)
+        return MomentArm(muscle, path, self.part, points, *way, now, angles, arms, lengths)
 
 
 def _hinges(model: Model, physics: Physics) -> Iterator[_Hinge]:
@@ -113,8 +119,11 @@ def _hinges(model: Model, physics: Physics) -> Iterator[_Hinge]:
         place = tie_place(mechanics, tie)
         neutral = float(mechanics.qpos0[place])
         angles = np.linspace(low, high, _POINTS) if limited else neutral + np.linspace(-_FREE, _FREE, _POINTS)
-        backwards = bool(data.xaxis[joint.id][1] > 0)
-        yield _Hinge(model.parts[i], tie.element.name, place, limited, backwards, float(data.qpos[place]), angles)
+        axis = data.xaxis[joint.id]
+        backwards = bool(axis[1] > 0) if abs(axis[1]) > _SAGITTAL else None
+        alone = int(mechanics.body_jntnum[int(joint.bodyid[0])]) == 1
+        now = float(data.qpos[place])
+        yield _Hinge(model.parts[i], tie.element.name, place, limited, backwards, alone, now, angles)
 
 
 def _of_points(model: Model, physics: Physics, hinge: _Hinge) -> Iterator[MomentArm]:

@@ -19,7 +19,7 @@ def warnings(arms: Sequence[MomentArm]) -> list[Fault]:
         low, high = np.degrees(arm.angles[[0, -1]])
         over = f"{low:.0f} to {high:.0f} deg" + ("" if arm.limited else ", as the hinge has no limits")
         # An arm that is a function of the angle is meant to be what it is beyond a joint's own range.
-        if arm.turns and (arm.points or arm.limited):
+        if arm.turns and arm.alone and (arm.points or arm.limited):
             places = _degrees(arm.turns)
             rule = f"the moment arm over {arm.hinge.address} changes sign at {places} (looked at: {over})"
             move = "beyond it the path pulls the other way; wrap it around the joint, move its points or its side"
@@ -31,14 +31,20 @@ def warnings(arms: Sequence[MomentArm]) -> list[Fault]:
 
 
 # What people call it when the child, hanging from its joint, turns backwards, and when it turns forwards.
-_SENSES = {"hip": ("extends", "flexes"), "knee": ("flexes", "extends"), "ankle": ("plantarflexes", "dorsiflexes")}
+# Out of the sagittal plane: when the angle grows, and when it falls.
+_ACROSS = {"hip_adduction": ("adducts", "abducts"), "hip_rotation": ("rotates inwards", "rotates outwards")}
+_HIP = ("extends", "flexes")
+_SENSES = {"hip": _HIP, "hip_flexion": _HIP, "knee": ("flexes", "extends"), "ankle": ("plantarflexes", "dorsiflexes")}
 
 
 def said(arm: MomentArm) -> str:
     """Which way a muscle turns a joint in the initial pose, such as "leg_l.soleus plantarflexes leg_l.ankle (...)"."""
-    back = (arm.initial > 0) == arm.backwards
     if abs(arm.initial) < 1e-6:
         return f"{arm.muscle} does not turn {arm.hinge.address} at the start"
+    if arm.backwards is None:
+        ways = _ACROSS.get(_bare(arm.hinge.address), ("turns", "turns back"))
+        return f"{arm.muscle} {ways[0 if arm.initial > 0 else 1]} {arm.hinge.address}"
+    back = (arm.initial > 0) == arm.backwards
     # A child that is fastened by its far end is the segment above the joint.
     frame = arm.hinge.attachments["child"].rpartition(".")[2]
     sense = _SENSES.get(_bare(arm.hinge.address))
