@@ -11,6 +11,7 @@ import mujoco
 
 from gaitsim.compiler.mechanics.making import Made
 from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Touching, world_frames
+from gaitsim.compiler.mechanics.space import check_friction, check_sides
 from gaitsim.compiler.mechanics.ties import Tie
 from gaitsim.compiler.mechanics.tree import Branch, branches, check_axes
 from gaitsim.compiler.mechanics.verbs import Mechanics, beside_frames, numbers_of
@@ -73,6 +74,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
     index = {part.address: i for i, part in enumerate(model.parts)}
     frames = world_frames(spec)
     made = Made()
+    check_sides(model, values)
 
     def build(part: Part, body: Any = None) -> None:
         beside = beside_frames(part, values)
@@ -100,6 +102,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
     for part in model.parts:
         if "build" in part.type.functions and part.address not in done:
             build(part)
+    check_friction(model, spec, made)
     compiled = _compiled(spec, {str(part.mark): part for part in model.parts})
     spec.option.integrator = compiled.opt.integrator = _integrator(model, compiled)
     compiled.opt.disableflags |= _unused_stages(compiled)

@@ -49,6 +49,7 @@ class Actuators(Making):
         `reach` the force acts that far from the place, in m along the same axes: at the lowest point of a
         sphere, say; the velocity is then the one there, the length of no use. For gain and limits see `motor`.
         """
+        self.made.pushed.setdefault(self.index, []).append(axis)
         name, ground = self._name(suffix), self._name(f"{surface}.surface") if surface else "world.origin"
         if not surface and self.spec.site(ground) is None:
             self.spec.worldbody.add_site(name=ground, size=[0.005] * 3)

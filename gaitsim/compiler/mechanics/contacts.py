@@ -52,3 +52,4 @@ class Contacts(Sensors):
     def touches(self, place: Point, radius: float = 0.0) -> None:
         """Tell that the ground carries the body here: a point, or a sphere of a radius in m."""
         self.made.touching.append(Touching(place.body.name, place.position, float(radius)))
+        self.made.carried[self.index] = place.body.name

@@ -20,6 +20,8 @@ class Made:
     constants: list[Callable[[Any], float]] = field(default_factory=list)
     drawings: list[tuple[int, DrawnLine | DrawnForce]] = field(default_factory=list)
     touching: list[Touching] = field(default_factory=list)
+    carried: dict[int, str] = field(default_factory=dict)  # parts that touch the ground: the body they are on
+    pushed: dict[int, list[Vector]] = field(default_factory=dict)  # axes along which parts push
     lifts: list[str] = field(default_factory=list)
     begins: list[tuple[str, float, float]] = field(default_factory=list)
 

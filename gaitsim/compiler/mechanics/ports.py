@@ -37,6 +37,11 @@ class Ports(Making):
         key = float(zlib.crc32(self.part.address.encode()))
         self._read_constant(port, lambda model: key)
 
+    def read_side(self, port: str) -> None:
+        """Let an output be -1 for a part of the left side, which is mirrored, and 1 for any other."""
+        side = -1.0 if self.part.mirrored else 1.0
+        self._read_constant(port, lambda model: side)
+
     def apply(self, port: str, element: Element, field_name: str, sign: float = 1.0) -> None:
         """Write an input or output into MuJoCo's data: qfrc_applied of a joint, ctrl of an actuator."""
         self.made.applies.append((self.index, tied(port, element, field_name, 0, sign)))

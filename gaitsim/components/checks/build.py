@@ -17,6 +17,7 @@ VERBS: Mapping[str, tuple[int, tuple[type, ...], str]] = {
     "read_energy": (2, (Output,), "output"),
     "read_weight": (1, (Output,), "output"),
     "read_key": (1, (Output,), "output"),
+    "read_side": (1, (Output,), "output"),
     "apply": (1, (Input, Output), "input or output"),
 }
 

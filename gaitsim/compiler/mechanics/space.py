@@ -1,0 +1,65 @@
+"""What is right in the sagittal plane only, and what is right on one side only, in a model that moves in space."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import mujoco
+
+from gaitsim.compiler.mechanics.making import Made
+from gaitsim.errors import Faults
+from gaitsim.model import Model
+
+_STRAIGHT = 1e-6  # of an axis of length 1, out of the plane or out of the way across it
+
+
+def check_friction(model: Model, spec: Any, made: Made) -> None:
+    """Whether the contacts of bodies that can move sideways have friction there.
+
+    Errors: InvalidSpec for each that pushes forwards along the ground and never sideways.
+    """
+    faults = Faults()
+    for index, body in made.carried.items():
+        axes = made.pushed.get(index, ())
+        if any(axis[0] for axis in axes) and not any(axis[1] for axis in axes):
+            joint = _out_of_plane(spec.body(body))
+            if joint:
+                part = model.parts[index]
+                rule = f"{part.type.reference} has no friction sideways, and {joint} lets it move there"
+                move = "choose a contact for space, such as contact/spatial_hunt_crossley"
+                faults.add(f"{rule}; {move}.", part.mark, part.address)
+    faults.raise_if_any()
+
+
+def check_sides(model: Model, values: Sequence[float]) -> None:
+    """Whether what lies on a mirrored segment, beside its middle, is mirrored as well.
+
+    Errors: InvalidSpec for each part that is not.
+    """
+    faults = Faults()
+    mirrored = {part.address for part in model.parts if part.mirrored and part.type.frames}
+    for part in (part for part in model.parts if not part.mirrored):
+        for name, places in {**part.points, **part.places}.items():
+            for place in places:
+                owner = place.frame if place.frame in mirrored else place.frame.rpartition(".")[0]
+                if owner in mirrored and values[place.at[1]] != 0:
+                    rule = (
+                        f"{name} has a place on {owner}, which is the mirror of a right one, but is itself not mirrored"
+                    )
+                    move = "write it once, as on the right, with sides: [l, r] or sides: [l]"
+                    faults.add(f"{rule}; {move}.", part.mark, part.address)
+                    break
+    faults.raise_if_any()
+
+
+def _out_of_plane(body: Any) -> str:
+    """The first joint, from a body down to the ground, that moves it out of the sagittal plane; empty if none does."""
+    while body is not None:
+        for joint in body.joints:
+            x, y, z = (abs(float(v)) for v in joint.axis)
+            slides = joint.type == mujoco.mjtJoint.mjJNT_SLIDE
+            if y > _STRAIGHT if slides else max(x, z) > _STRAIGHT * y:
+                return str(joint.name)
+        body = body.parent
+    return ""
