@@ -21,6 +21,7 @@ from gaitsim.cli import (
     new,
     optimize,
     profile,
+    projects,
     results,
     run,
     schema,
@@ -47,6 +48,7 @@ app.command("check")(check.check)
 app.command("show")(show.show)
 app.command("cite")(cite.cite)
 app.command("new")(new.new)
+app.command("projects")(projects.projects)
 app.command("schema")(schema.schema)
 app.add_typer(library.app, name="library")
 app.add_typer(results.app, name="results")

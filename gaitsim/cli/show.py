@@ -13,7 +13,9 @@ from gaitsim.cli.options import Json, Libraries, Results, Set, Spec, Trust, open
 
 def show(
     spec: Spec,
-    tree: Annotated[bool, typer.Option("--tree", help="Parts and their components (the default).")] = False,
+    tree: Annotated[
+        bool, typer.Option("--tree", help="Parts, their components, and which library has each (the default).")
+    ] = False,
     parameters: Annotated[bool, typer.Option("--parameters", help="Every number with its unit and source.")] = False,
     connections: Annotated[bool, typer.Option("--connections", help="Every connection between parts.")] = False,
     mjcf: Annotated[bool, typer.Option("--mjcf", help="The mechanics as MuJoCo XML.")] = False,
@@ -34,7 +36,7 @@ def show(
     model = source.model()
     data: dict[str, Any] = {}
     if tree or not (parameters or connections or mjcf):
-        data["tree"] = part_rows(model)
+        data["tree"] = [{**row, "library": source.library.serves(row["use"])} for row in part_rows(model)]
     if parameters:
         data["parameters"] = parameter_rows(model)
     if connections:
@@ -53,12 +55,14 @@ def show(
 
 
 def _tree(rows: list[dict[str, Any]]) -> None:
+    wide = max((len(row["use"]) for row in rows), default=0)
     for row in rows:
         depth = row["address"].count(".")
         name = row["address"].rpartition(".")[2]
         fastened = ", ".join(f"{k}: {v}" for k, v in row.get("fastened", {}).items())
         line = f"{'  ' * depth}{name}"
-        console.give(f"{line:<32} {row['use']}{'  (' + fastened + ')' if fastened else ''}")
+        words = f"{line:<32} {row['use']:<{wide}}  {row['library']:<8}{'  (' + fastened + ')' if fastened else ''}"
+        console.give(words.rstrip())
 
 
 def _parameters(rows: list[dict[str, Any]]) -> None:

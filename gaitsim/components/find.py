@@ -1,4 +1,4 @@
-"""Where components are found: beside the spec, given folders, the workspace, the shipped ones."""
+"""Where components are found: beside the spec, given folders, its project, its lab, the shipped ones."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from gaitsim.components.checks.shared import Shared, imported_names
 from gaitsim.components.composite import ComponentFile, load_composite
 from gaitsim.components.contract import kind_faults
 from gaitsim.components.load import as_lines, load_primitive
+from gaitsim.components.places import lab_of, project_of, serves
 from gaitsim.components.table import Table, load_table
 from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean, nearest
 from gaitsim.text.document import text_of
@@ -41,8 +42,10 @@ def shipped_specs() -> dict[str, Path]:
 def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path, ...]:
     """The search path for a spec, nearest first."""
     beside = (spec or Path.cwd() / "x").absolute().parent
-    workspace = next((f / "library" for f in (beside, *beside.parents) if (f / "library").is_dir()), None)
-    folders = [beside / "components", *extra, *([workspace] if workspace else []), shipped_folder()]
+    project, lab = project_of(beside), lab_of(beside)
+    near = [f / "library" for f in ((lab,) if lab else (beside, *beside.parents)) if (f / "library").is_dir()]
+    own = [project / "components"] if project else []
+    folders = [beside / "components", *extra, *own, *near[:1], shipped_folder()]
     unique = {folder.resolve(): folder for folder in reversed(folders) if folder.is_dir()}
     return tuple(folder for folder in folders if unique.get(folder.resolve()) is folder)
 
@@ -85,6 +88,12 @@ class Library:
     def path(self, reference: str) -> Path | None:
         """The file of a reference, loaded or not."""
         return next(iter(self._files(reference)), None)
+
+    def serves(self, reference: str) -> str:
+        """Which library a loaded component comes from: shipped, lab, project, result, or a folder."""
+        path = self.find(reference).path
+        word = serves(path.parents[1], shipped_folder())
+        return shown(path.parents[1]) if word == str(path.parents[1]) else word
 
     def used(self) -> dict[str, ComponentFile]:
         """What has been loaded, by reference."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import getpass
 import platform
 import subprocess
 import sys
@@ -47,6 +48,25 @@ def _commit(folder: Path) -> dict[str, Any] | None:
         return {"hash": head, "dirty": bool(status)}
     except (OSError, subprocess.SubprocessError):
         return None
+
+
+def author() -> str:
+    """Who works here: the name and address that git knows, or else the name of the user."""
+    name, address = (_setting(key) for key in ("user.name", "user.email"))
+    if name:
+        return f"{name} <{address}>" if address else name
+    try:
+        return getpass.getuser()
+    except (OSError, KeyError):
+        return "unknown"
+
+
+def _setting(key: str) -> str:
+    """A setting of git; nothing where there is none."""
+    try:
+        return _git("config", key, folder=Path.cwd())
+    except (OSError, subprocess.SubprocessError):
+        return ""
 
 
 def _git(*words: str, folder: Path) -> str:

@@ -39,10 +39,15 @@ def write_tuned(spec: Path, result: str, score: float, values: Map[str, float], 
     values: in SI. units: in which they are written. Errors: OSError.
     """
     path = tuned_path(spec)
-    said = {a: v if units[a].text == "1" else units[a].exactly(v) for a, v in values.items()}
-    text = dump({"about": _ABOUT, "format": _FORMAT, "result": result, "score": score, "values": said})
-    write_whole(path, text)
+    write_whole(path, tuned_text(result, score, values, units))
     return path
+
+
+def tuned_text(result: str, score: float | None, values: Map[str, float], units: Map[str, Unit]) -> str:
+    """A file of tuned values; score: None where it is not known. Else as `write_tuned`."""
+    said = {a: v if units[a].text == "1" else units[a].exactly(v) for a, v in values.items()}
+    known = {} if score is None else {"score": score}
+    return dump({"about": _ABOUT, "format": _FORMAT, "result": result, **known, "values": said})
 
 
 def read_tuned(path: Path, free: Iterable[Free]) -> TunedValues:

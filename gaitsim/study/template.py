@@ -62,7 +62,7 @@ def study(origin: str) -> dict[str, str]:
         raise Usage(f"--from {origin}: this one extends another; begin with {choice}.")
     file, component = new_component("controller", "my_reflex", Library((shipped_folder(),)))
     files = {f"{origin}.yaml": text}
-    feedback = _feedback(document)
+    feedback = feedback_of(document)
     if feedback is not None:
         files[f"my_{origin}.yaml"] = _VARIANT.format(origin=origin, feedback=feedback)
         files[f"components/controller/{file}"] = component
@@ -70,11 +70,10 @@ def study(origin: str) -> dict[str, str]:
     return files | {"README.md": _README.format(title=f"My {origin.replace('_', ' ')}", origin=origin)}
 
 
-def _feedback(document: Mapping) -> str | None:
+def feedback_of(document: Mapping) -> str | None:
     """The part of a spec that is a muscle's feedback."""
     parts = document.entries.get("parts")
-    assert isinstance(parts, Mapping)
-    for name, node in parts.entries.items():
+    for name, node in (parts.entries if isinstance(parts, Mapping) else {}).items():
         use = node.entries.get("use") if isinstance(node, Mapping) else None
         if getattr(use, "value", "") == "controller/muscle_feedback":
             return name

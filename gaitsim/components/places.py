@@ -1,0 +1,46 @@
+"""Which folders make up a lab: its projects and its library, told by the files that mark them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+LAB = "lab.yaml"  # marks the folder that holds library/ and projects/
+PROJECT = "project.yaml"  # marks the folder of one project
+_RESULT = "manifest.json"
+
+
+def lab_of(place: Path) -> Path | None:
+    """The lab that a file or folder belongs to: the nearest folder above it that is marked as one."""
+    return _marked(place, LAB)
+
+
+def project_of(place: Path) -> Path | None:
+    """The project that a file or folder belongs to, within its lab."""
+    return _marked(place, PROJECT, LAB)
+
+
+def _marked(place: Path, marker: str, end: str = "") -> Path | None:
+    """The nearest of a place and the folders above it that holds a marker, up to the one that holds `end`."""
+    whole = place.absolute()
+    for folder in (whole, *whole.parents):
+        if (folder / marker).is_file():
+            return folder
+        if end and (folder / end).is_file():
+            return None
+    return None
+
+
+def serves(folder: Path, shipped: Path) -> str:
+    """What a folder of components is called: shipped, lab, project, result, or its path.
+
+    Args:
+        folder: One of the folders of a library.
+        shipped: The folder that comes with gaitsim.
+    """
+    if folder.resolve() == shipped.resolve():
+        return "shipped"
+    markers = {("library", LAB): "lab", ("components", PROJECT): "project", ("components", _RESULT): "result"}
+    for (name, marker), word in markers.items():
+        if folder.name == name and (folder.parent / marker).is_file():
+            return word
+    return str(folder)

@@ -1,0 +1,259 @@
+"""Projects: folders below a lab, each with a model copied from a result or a spec, and all that a researcher adds.
+
+A project is told by a file of its own, and a lab by one that never changes: nothing is shared that two could write.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping as Map
+from dataclasses import dataclass
+from datetime import date
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gaitsim.components.find import is_component, shipped_folder, shipped_specs
+from gaitsim.components.load import as_lines
+from gaitsim.components.places import LAB, PROJECT, lab_of
+from gaitsim.errors import InvalidSpec, Usage, did_you_mean
+from gaitsim.results.bundle import COMPONENTS, SPEC, Bundle
+from gaitsim.results.manifest import is_result, result_named
+from gaitsim.results.provenance import author
+from gaitsim.results.tuned import tuned_path, tuned_text
+from gaitsim.study.new_files import write_new
+from gaitsim.study.opening import Opening
+from gaitsim.study.template import feedback_of
+from gaitsim.text.document import dump, parse, plain, read
+
+if TYPE_CHECKING:
+    from gaitsim.study.source import Source
+
+_PROJECTS = "projects"
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,63}")
+_LAB_TEXT = (
+    "gaitsim: 1\nabout: A lab. Its library/ serves every spec below it; projects/ has a folder for each project.\n"
+)
+_IGNORED = "results/\nanalysis/\n*.partial\n"
+_VARIANT = """\
+gaitsim: 1
+about: {name}, from {origin}.
+
+extends: {origin}.yaml
+# What differs from it stands here, such as a part with a component of your own:
+#
+# parts:
+#   {part}: {{use: controller/my_reflex}}
+"""
+_README = """\
+# {name}
+
+Begun by {author} on {day} from {where}.
+
+| file | what it is |
+|---|---|
+| `{name}.yaml` | the model of this project: what differs from `{origin}.yaml` |
+| `{name}.tuned.yaml` | the values that it starts at; `gaitsim optimize {name}.yaml --adopt` replaces them |
+| `{origin}.yaml` | the model that it began with, copied; leave it as it is |
+| `components/` | components of this project, which go before those of the lab and of gaitsim |
+
+{copied}
+
+## Next steps
+
+    gaitsim show {name}.yaml                       # parts, and which library has each
+    gaitsim run {name}.yaml
+    gaitsim library new controller my_reflex       # a component of your own
+    gaitsim optimize {name}.yaml --generations 2   # a brief search
+
+What differs from the beginning, in the model and in its gait:
+
+    gaitsim results compare {compared} results/RESULT
+"""
+
+
+@dataclass(frozen=True)
+class Project:
+    """A project: its folder, name, author, day of beginning, and what it was begun from."""
+
+    folder: Path
+    name: str
+    author: str
+    date: str
+    origin: str
+
+    @property
+    def spec(self) -> Path:
+        """Its model."""
+        return self.folder / f"{self.name}.yaml"
+
+
+def projects(place: Path) -> list[Project]:
+    """The projects of the lab that a folder belongs to, by name; one whose file is damaged has nothing but its folder.
+
+    Raises:
+        Usage: The folder belongs to no lab.
+    """
+    lab = lab_of(place)
+    if lab is None:
+        raise Usage(f"no folder above this one has a {LAB}, so this is no lab; gaitsim new project NAME makes one.")
+    return [_read(path) for path in sorted((lab / _PROJECTS).glob(f"*/{PROJECT}"))]
+
+
+def _read(path: Path) -> Project:
+    try:
+        found = plain(read(path))
+    except (InvalidSpec, OSError):
+        found = {}
+    said = [str(found.get(key, "damaged")) for key in ("author", "date", "from")]
+    return Project(path.parent, path.parent.name, *said)
+
+
+@dataclass(frozen=True)
+class Begun:
+    """A project that was made: its files, by path; and components that it has copies of, with the reason."""
+
+    project: Project
+    files: tuple[Path, ...]
+    copied: Map[str, str]
+
+
+def new_project(name: str, origin: str, place: Path, results: Path | None = None, trusted: bool = False) -> Begun:
+    """Make a project in the lab that a folder belongs to; without a lab, the folder becomes one.
+
+    Args:
+        name: Of the project and of its spec.
+        origin: A result, a spec, or the name of a shipped spec, of which the model and its tuned values are copied.
+        place: Where the command is given.
+        results: The folder in which a result's name is looked up.
+        trusted: Load components of a result that this machine does not know.
+
+    Raises:
+        Usage, BadResult, Untrusted, InvalidSpec, InvalidComponent, CannotSave: Nothing is left behind then.
+    """
+    lab = lab_of(place) or place
+    folder = _free_folder(name, lab)
+    opening = _opening(origin, results, trusted)
+    source = opening.source()
+    model = source.model()
+    bundle = source.bundle([model])
+    called = source.name if source.name.lower() != name.lower() else f"{source.name}_origin"
+    copied = _lacking(bundle, [lab / "library", shipped_folder()])
+    project = Project(folder, name, author(), date.today().isoformat(), _where(opening, source, origin))
+    texts = {
+        f"{called}.yaml": _spec_text(opening, bundle),
+        f"{name}.yaml": _VARIANT.format(name=name, origin=called, part=feedback_of(source.document) or "feedback"),
+        PROJECT: _marker(project, bundle),
+        "README.md": _readme(project, called, copied, opening),
+        ".gitignore": _IGNORED,
+        **{path: bundle.files[path] for path in copied},
+    }
+    texts |= {} if copied else {f"{COMPONENTS}/.gitkeep": ""}
+    values = {free.address: free.start for free in model.free if free.address in source.starts}
+    if values:
+        tuned = tuned_text(
+            project.origin, source.recorded.get("score"), values, {f.address: f.unit for f in model.free}
+        )
+        texts |= {tuned_path(Path(f"{stem}.yaml")).name: tuned for stem in (called, name)}
+    marker = {} if (lab / LAB).is_file() else {lab / LAB: _LAB_TEXT}
+    files = marker | {folder / path: text for path, text in texts.items()}
+    write_new(files, "give the command in a folder that you may write to")
+    return Begun(project, tuple(files), copied)
+
+
+def _free_folder(name: str, lab: Path) -> Path:
+    """Errors: Usage for a name that cannot be one, or that is taken."""
+    if not _NAME.fullmatch(name):
+        rule = "a project's name is that of its folder and its spec: letters, digits, _ and -, a letter first"
+        raise Usage(f"{name}: {rule}; choose such a name.")
+    folder = lab / _PROJECTS / name
+    taken = next((p for p in sorted((lab / _PROJECTS).glob("*")) if p.name.lower() == name.lower()), None)
+    if taken is not None:
+        known = _read(taken / PROJECT) if (taken / PROJECT).is_file() else None
+        by = f", begun by {known.author} on {known.date}" if known else ""
+        raise Usage(f"{name}: {taken} is there already{by}; nothing was changed. Choose another name.")
+    return folder
+
+
+def _opening(origin: str, results: Path | None, trusted: bool) -> Opening:
+    """Errors: Usage for what is neither a result nor a spec."""
+    named = result_named(Path(origin), results)
+    if is_result(named):
+        return Opening(named, trusted=trusted)
+    if named.is_file():
+        return Opening(named)
+    shipped = shipped_specs()
+    if origin in shipped:
+        return Opening(shipped[origin])
+    rule = "this is no result, no spec, and no model that is shipped"
+    raise Usage(f"--from {origin}: {rule}. {did_you_mean(origin, shipped)}")
+
+
+def _where(opening: Opening, source: Source, origin: str) -> str:
+    """What a project is begun from: the name of a result holds wherever its folder lies."""
+    if source.manifest:
+        return f"{opening.path.name}"
+    return origin
+
+
+def _spec_text(opening: Opening, bundle: Bundle) -> str:
+    """The spec as it was written; with its parents merged in if it has some, and of a result as that holds it."""
+    if not opening.names_result:
+        text = opening.path.read_text(encoding="utf-8")
+        if "extends" not in parse(text, str(opening.path)).entries:
+            return text
+    return bundle.files[SPEC]
+
+
+def _lacking(bundle: Bundle, libraries: list[Path]) -> dict[str, str]:
+    """The component files of a bundle that these libraries do not serve as they are, each with what is said of it."""
+    found = {}
+    for path, text in sorted(bundle.files.items()):
+        inner = path.removeprefix(f"{COMPONENTS}/")
+        if inner == path:
+            continue
+        there = next((library / inner for library in libraries if (library / inner).is_file()), None)
+        if there is None:
+            found[path] = "no library has it"
+        elif as_lines(there.read_text(encoding="utf-8")) != text:
+            found[path] = f"it differs from {there}"
+    return found
+
+
+def _marker(project: Project, bundle: Bundle) -> str:
+    return dump(
+        {
+            "gaitsim": 1,
+            "project": project.name,
+            "author": project.author,
+            "date": project.date,
+            "from": project.origin,
+            "digest": bundle.digest,
+        }
+    )
+
+
+def _readme(project: Project, origin: str, copied: Map[str, str], opening: Opening) -> str:
+    own = [path for path in copied if is_component(Path(path))]
+    said = f"Copied from there, because no library serves them as they were: {', '.join(f'`{p}`' for p in own)}."
+    return _README.format(
+        name=project.name,
+        author=project.author,
+        day=project.date,
+        where=f"`{project.origin}`",
+        origin=origin,
+        copied=said if own else "All its components are served by the libraries of the lab and of gaitsim.",
+        compared=os.path.relpath(opening.path, project.folder) if opening.names_result else f"{origin}.yaml",
+    )
+
+
+def project_data(project: Project) -> dict[str, Any]:
+    """A project as plain data."""
+    return {
+        "name": project.name,
+        "author": project.author,
+        "date": project.date,
+        "from": project.origin,
+        "folder": str(project.folder),
+        "spec": str(project.spec),
+    }
