@@ -9,7 +9,7 @@ PYTHONS := $(PYTHON) python3.13 python3.12 python3.11 python3
 unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
 export GAITSIM_CACHE := $(CURDIR)/.cache/gaitsim
 
-.PHONY: help setup run test test-all check docs bench bench-page muscles walker clean
+.PHONY: help setup run test test-all archive check docs bench bench-page muscles walker clean
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /make \1	/p' Makefile
 
@@ -30,6 +30,9 @@ test: check ## check, then the fast tests: what must hold before a change is mer
 
 test-all: check ## check, then all tests, with long physics and killed searches: before a release
 	$(TESTS)
+
+archive: $(READY) ## run every model again and compare with its record (half a minute)
+	.venv/bin/gaitsim archive check
 
 docs: $(READY) ## build the documentation in site/; a broken link is an error
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet

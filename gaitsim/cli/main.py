@@ -1,4 +1,4 @@
-"""The command line: `gaitsim run | optimize | analyze | check | show | schema | library | results`."""
+"""The command line: `gaitsim run | optimize | analyze | check | show | schema | library | archive | results`."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ import typer
 from gaitsim import __version__
 from gaitsim.cli import (
     analyze,
+    archive,
     check,
     cite,
     console,
@@ -51,6 +52,7 @@ app.command("new")(new.new)
 app.command("projects")(projects.projects)
 app.command("schema")(schema.schema)
 app.add_typer(library.app, name="library")
+app.add_typer(archive.app, name="archive")
 app.add_typer(results.app, name="results")
 
 

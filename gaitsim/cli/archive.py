@@ -1,0 +1,145 @@
+"""gaitsim archive: models with a record of what they did, and whether they still do it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from gaitsim.cli import console
+from gaitsim.cli.options import Json, Libraries
+from gaitsim.errors import ExitCode, command
+
+if TYPE_CHECKING:
+    from gaitsim.study.archive import Verdict
+    from gaitsim.study.records import Difference
+
+app = typer.Typer(help="List, check and record models that run.", no_args_is_help=True, rich_markup_mode=None)
+
+
+def _names(incomplete: str) -> list[str]:
+    from gaitsim.components.find import shipped_specs
+
+    return [name for name in shipped_specs() if name.startswith(incomplete)]
+
+
+What = Annotated[
+    list[str] | None,
+    typer.Argument(
+        metavar="[NAME | SPEC | FOLDER]...",
+        help="Shipped specs by name, specs, or folders of them (default: all that are shipped).",
+        autocompletion=_names,
+    ),
+]
+
+
+@app.command("check")
+def check(what: What = None, library: Libraries = None, json: Json = False) -> int:
+    """Run models again and compare with their records; in parallel.
+
+    Examples:
+
+    gaitsim archive check
+
+    gaitsim archive check hopping_geyer2003 walking_geyer2010
+    """
+    from gaitsim.study.archive import archived, checked
+
+    verdicts = list(checked(archived(what or [], library or ()), console.Talk(json)))
+    wrong = [verdict for verdict in verdicts if not verdict.holds]
+    if json:
+        console.give_json({"status": "differs" if wrong else "holds", "models": [_data(v) for v in verdicts]})
+    else:
+        rows = [row for verdict in wrong for row in difference_rows(verdict.archived.name, verdict.differs)]
+        if rows:
+            console.give_table(DIFFERENCE_COLUMNS, rows)
+        console.give(f"{len(verdicts) - len(wrong)} of {len(verdicts)} models do what was recorded")
+        for verdict in wrong:
+            if verdict.error:
+                console.say_error(verdict.error)
+            if verdict.changed:
+                console.say(f"{verdict.archived.name}: changed since it was recorded: {', '.join(verdict.changed)}")
+        differing = [verdict.archived.name for verdict in wrong if verdict.differs]
+        if differing:
+            console.say(f"if this is meant: {command('archive', 'record', *differing)}")
+    return ExitCode.FAILED if wrong else 0
+
+
+@app.command("record")
+def record(what: What = None, library: Libraries = None, json: Json = False) -> int:
+    """Run models and write what they do to records/ beside each spec; numbers that still hold stay as they are.
+
+    Each is run three times, to see how much of a metric another machine may round otherwise.
+
+    Examples:
+
+    gaitsim archive record hopping_geyer2003
+
+    gaitsim archive record specs
+    """
+    from gaitsim.components.find import shown
+    from gaitsim.study.archive import archived, recorded
+
+    wrong, data = False, []
+    for made in recorded(archived(what or [], library or ()), console.Talk(json)):
+        wrong = wrong or made.error is not None
+        data.append(
+            {
+                "model": made.archived.name,
+                "record": str(made.path),
+                "what": made.what,
+                "differs": [_difference(d) for d in made.differs],
+                **(console.error_data(made.error) if made.error else {}),
+            }
+        )
+        if json:
+            continue
+        if made.error:
+            console.say_error(made.error)
+            continue
+        console.give(f"{shown(made.path)}: {made.what}")
+        if made.differs:
+            console.give_table(DIFFERENCE_COLUMNS, difference_rows(made.archived.name, made.differs))
+    if json:
+        console.give_json({"records": data})
+    return ExitCode.FAILED if wrong else 0
+
+
+DIFFERENCE_COLUMNS = ("model", "run", "metric", "recorded", "now", "unit", "change", "tolerance")
+
+
+def difference_rows(name: str, differs: Sequence[Difference]) -> list[tuple[str, ...]]:
+    """What differs, as rows of a table."""
+    return [
+        (
+            name,
+            d.run,
+            d.metric,
+            _said(d.recorded),
+            _said(d.now),
+            d.unit if d.unit != "1" else "",
+            "" if d.change is None else f"{100 * d.change:+.2g} %",
+            "" if d.tolerance is None else f"{d.tolerance:.2g}",
+        )
+        for d in differs
+    ]
+
+
+def _said(value: float | str | None) -> str:
+    return f"{value:.9g}" if isinstance(value, float) else value or "-"
+
+
+def _difference(one: Difference) -> dict[str, Any]:
+    return {**vars(one), "change": one.change}
+
+
+def _data(verdict: Verdict) -> dict[str, Any]:
+    return {
+        "model": verdict.archived.name,
+        "spec": str(verdict.archived.path),
+        "holds": verdict.holds,
+        "differs": [_difference(d) for d in verdict.differs],
+        "changed": list(verdict.changed),
+        **({"errors": console.error_data(verdict.error)["errors"]} if verdict.error else {}),
+    }

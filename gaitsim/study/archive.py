@@ -1,0 +1,294 @@
+"""The archive: models that run, each with a record of what it did, and whether they still do it."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+from gaitsim.components.find import Library, shipped_specs, shown
+from gaitsim.components.load import digest_of
+from gaitsim.errors import Fault, GaitsimError, Mark, SimulationFailed, Usage, did_you_mean
+from gaitsim.model import Model
+from gaitsim.results.store import CannotSave
+from gaitsim.simulation.outcome import Outcome
+from gaitsim.simulation.run import Simulator
+from gaitsim.simulation.threads import cores, in_threads
+from gaitsim.spec.study import Variant, variants
+from gaitsim.study.listening import Listener
+from gaitsim.study.opening import Opening
+from gaitsim.study.records import (
+    OR,
+    SCORE,
+    SHORT,
+    STEPS,
+    BadRecord,
+    Difference,
+    MadeFrom,
+    Recorded,
+    Row,
+    Value,
+    differences,
+    finite,
+    kept,
+    read_record,
+    record_path,
+    run_words,
+    write_record,
+)
+from gaitsim.study.source import Source
+from gaitsim.text.document import dump, plain
+
+# Another machine rounds otherwise, by 1e-16 of a number at each operation. A billionth of gravity is far more than
+# that, so what it changes tells how far numbers may lie apart; below the first number nothing of interest happens.
+_NUDGE = 1e-9
+_RELATIVE, _RESPONSES, _ABSOLUTE = 1e-6, 2.0, 1e-12
+
+
+@dataclass(frozen=True)
+class Archived:
+    """A spec of an archive, and the name by which it is called."""
+
+    name: str
+    path: Path
+    folders: tuple[Path, ...] = ()
+
+    @cached_property
+    def source(self) -> Source:
+        """The spec at its tuned values. Errors: as of `Opening.source`."""
+        return Opening(self.path, folders=self.folders).source()
+
+    @cached_property
+    def rows(self) -> list[Variant]:
+        """Its runs: one, or those of its study. Errors: InvalidSpec."""
+        return variants(self.source.document, [])
+
+    @cached_property
+    def models(self) -> list[Model]:
+        """The model of each run. Errors: InvalidSpec, InvalidComponent."""
+        return [self.source.model(row.document) for row in self.rows]
+
+    def made_from(self) -> MadeFrom:
+        """The versions of what the models are made from."""
+        assert self.models
+        source = self.source
+        tuned = digest_of(json.dumps(dict(source.starts)))[:SHORT] if source.starts else None
+        return MadeFrom(
+            spec=digest_of(dump(plain(source.document)))[:SHORT], tuned=tuned, components=versions(source.library)
+        )
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What a check says of a model: what differs, and what it was made from that has changed; or why there is none."""
+
+    archived: Archived
+    differs: tuple[Difference, ...] = ()
+    changed: tuple[str, ...] = ()
+    error: GaitsimError | None = None
+
+    @property
+    def holds(self) -> bool:
+        """Whether the model does what was recorded."""
+        return self.error is None and not self.differs
+
+
+@dataclass(frozen=True)
+class Recording:
+    """What became of a record: new, unchanged, changed (with what differs from the one before), or an error."""
+
+    archived: Archived
+    path: Path
+    what: str
+    differs: tuple[Difference, ...] = ()
+    error: GaitsimError | None = None
+
+
+def versions(library: Library) -> dict[str, str]:
+    """The first letters of the digest of each component and table that was used, by reference."""
+    files = {r: c.digest for r, c in library.used().items()}
+    tables = {r: digest_of(table.source) for r, table in library.used_tables().items()}
+    return {reference: digest[:SHORT] for reference, digest in sorted((files | tables).items())}
+
+
+def archived(words: Sequence[str], folders: Sequence[Path] = ()) -> list[Archived]:
+    """The specs that words name: names of shipped specs, specs, and folders of specs; without words all shipped ones.
+
+    Errors: Usage.
+    """
+    known, extra = shipped_specs(), tuple(folders)
+    found: dict[Path, Archived] = {}
+    for word in words or known:
+        path = Path(word)
+        if word in known:
+            one = [Archived(word, known[word], extra)]
+        elif path.is_dir():
+            one = [Archived(str(path / file.name), path / file.name, extra) for file in _specs_in(path)]
+        elif path.suffix == ".yaml":
+            one = [Archived(word, path, extra)]
+        else:
+            hint = did_you_mean(word, known)
+            raise Usage(f"{word}: this is no shipped spec, no .yaml file and no folder. {hint}")
+        if not one:
+            raise Usage(f"{word}: there is no spec in this folder; name one that has some.")
+        found |= {each.path.resolve(): each for each in one}
+    return list(found.values())
+
+
+def recorded(specs: Sequence[Archived], listener: Listener) -> Iterator[Recording]:
+    """Run specs, thrice each, and write their records. One that cannot be recorded costs only itself."""
+    for spec, found in _run(specs, (0.0, _NUDGE, -_NUDGE), listener):
+        path = record_path(spec.path)
+        try:
+            yield _written(spec, path, found)
+        except GaitsimError as error:
+            yield Recording(spec, path, "failed", error=error)
+
+
+def checked(specs: Sequence[Archived], listener: Listener) -> Iterator[Verdict]:
+    """Run specs again, and compare with their records. One that cannot be checked costs only itself."""
+    known: dict[Path, Recorded] = {}
+    wrong: dict[Path, GaitsimError] = {}
+    for spec in specs:
+        try:
+            known[spec.path] = read_record(spec.path)
+        except GaitsimError as error:
+            wrong[spec.path] = error
+    ran = dict(_run([spec for spec in specs if spec.path in known], (0.0,), listener))
+    for spec in specs:
+        found = ran.get(spec)
+        if spec.path in wrong:
+            yield Verdict(spec, error=wrong[spec.path])
+        elif isinstance(found, GaitsimError):
+            yield Verdict(spec, error=found)
+        elif found is not None:
+            before = known[spec.path]
+            now = [_row(spec, i, [outcome]) for i, (outcome,) in enumerate(found)]
+            differs = tuple(differences(before.runs, now))
+            yield Verdict(spec, differs, changes(before.made_from, spec.made_from()) if differs else ())
+
+
+def changes(before: MadeFrom, now: MadeFrom) -> tuple[str, ...]:
+    """What a model is made from that is not as it was, in words."""
+    found = [word for word in ("spec", "tuned") if getattr(before, word) != getattr(now, word)]
+    said = {"spec": "the spec", "tuned": "its tuned values"}
+    both = {**before.components, **now.components}
+    components = [
+        f"{reference} {before.components.get(reference, 'not there')} -> {now.components.get(reference, 'not there')}"
+        for reference in sorted(both)
+        if before.components.get(reference) != now.components.get(reference)
+    ]
+    return (*(said[word] for word in found), *components)
+
+
+Ran = list[tuple[Outcome, ...]]
+
+
+def _run(
+    specs: Sequence[Archived], nudges: Sequence[float], listener: Listener
+) -> Iterator[tuple[Archived, Ran | GaitsimError]]:
+    """The outcomes of every run of specs, once for each change of gravity; or why there are none. All in parallel."""
+    calls = []
+    prepared: dict[Archived, int | GaitsimError] = {}
+    hear = listener.progress("models prepared")
+    for count, spec in enumerate(specs, start=1):
+        try:
+            simulators = [Simulator(_nudged(model, nudge)) for model in spec.models for nudge in nudges]
+            prepared[spec] = len(simulators)
+            calls += [simulator.run for simulator in simulators]
+        except GaitsimError as error:
+            prepared[spec] = error
+        hear(count, len(specs))
+    hear = listener.progress("runs")
+    outcomes = in_threads(calls, cores())
+    done = 0
+    for spec in specs:
+        ready = prepared[spec]
+        if isinstance(ready, GaitsimError):
+            yield spec, ready
+            continue
+        mine = []
+        for _ in range(ready):
+            mine.append(next(outcomes))
+            done += 1
+            hear(done, len(calls))
+        yield spec, list(zip(*[iter(mine)] * len(nudges), strict=True))
+
+
+def _nudged(model: Model, share: float) -> Model:
+    """The model under a gravity that is a little different."""
+    simulate = replace(model.simulate, gravity=model.simulate.gravity * (1 + share))
+    return replace(model, simulate=simulate) if share else model
+
+
+def _written(spec: Archived, path: Path, found: Ran | GaitsimError) -> Recording:
+    """Write the record of a spec, if it differs from the one that is there. Errors: GaitsimError."""
+    if isinstance(found, GaitsimError):
+        raise found
+    rows = [_row(spec, i, outcomes) for i, outcomes in enumerate(found)]
+    now = Recorded(made_from=spec.made_from(), runs=rows)
+    try:
+        before = read_record(spec.path)
+    except BadRecord:
+        before = None
+    if before is not None:
+        now = kept(before, now)
+        if now == before:
+            return Recording(spec, path, "unchanged")
+    try:
+        write_record(spec.path, now)
+    except OSError as error:
+        rule = f"the record cannot be written ({error.strerror or error})"
+        raise CannotSave(f"{path}: {rule}; make room or rights there.") from error
+    if before is None:
+        return Recording(spec, path, "new")
+    return Recording(spec, path, "changed", tuple(differences(before.runs, now.runs)))
+
+
+def _row(spec: Archived, index: int, outcomes: Sequence[Outcome]) -> Row:
+    """One run as a record has it, from its outcome and those under another gravity, if there are some.
+
+    Errors: SimulationFailed for one of those that fails.
+    """
+    first, settings = outcomes[0], spec.rows[index].settings
+    if len(outcomes) > 1 and first.status == "failed":
+        rule = f"this fails, and an archive holds what runs: {first.reason}"
+        raise SimulationFailed(Fault(rule, Mark(shown(spec.path)), run_words(settings)))
+    statuses = dict.fromkeys(outcome.status for outcome in outcomes)
+    units = {STEPS: "1", SCORE: "1"} | spec.models[index].metrics
+    numbers = [_numbers(outcome) for outcome in outcomes]
+    values = {name: _value([each.get(name) for each in numbers], units[name]) for name in numbers[0]}
+    return Row(settings=settings, status=OR.join(statuses), numbers=values)
+
+
+def _numbers(outcome: Outcome) -> dict[str, float | None]:
+    named: dict[str, float | None] = {STEPS: float(outcome.steps)}
+    if outcome.score is not None:
+        named[SCORE] = outcome.score
+    return named | {name: finite(value) for name, value in outcome.metrics.items()}
+
+
+def _value(found: Sequence[float | None], unit: str) -> Value:
+    """A number with a tolerance from what the other runs say."""
+    value = found[0]
+    if len({each is None for each in found}) > 1:
+        return Value(value=value, unit=unit, tolerance=None)
+    if value is None:
+        return Value(value=None, unit=unit, tolerance=0.0)
+    response = max(abs(float(each or 0.0) - value) for each in found)
+    wide = max(_RELATIVE * abs(value), _RESPONSES * response, _ABSOLUTE)
+    return Value(value=value, unit=unit, tolerance=_upwards(wide))
+
+
+def _upwards(number: float) -> float:
+    """A number of two digits that is not below another one, above 0."""
+    step = 10.0 ** (math.floor(math.log10(number)) - 1)
+    return float(f"{math.ceil(number / step - 1e-9) * step:.1e}")
+
+
+def _specs_in(folder: Path) -> list[Path]:
+    """The specs right in a folder."""
+    return [path for path in sorted(folder.glob("*.yaml")) if not path.stem.endswith(".tuned")]
