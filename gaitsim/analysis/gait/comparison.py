@@ -11,7 +11,7 @@ import numpy as np
 
 from gaitsim.analysis.gait.joint_moments import joint_moment
 from gaitsim.analysis.gait.legs import SIDES, Cycle, Leg, mass, on_side, part_at, two_legs
-from gaitsim.analysis.gait.norms import WALKING, Comparison, Norm, compared, read_norm
+from gaitsim.analysis.gait.norms import RUNNING, WALKING, Comparison, Norm, compared, read_norm
 from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.components.find import Library, library_folders
@@ -91,6 +91,11 @@ def followed(replay: Replay) -> list[Followed]:
     return list(found.values())
 
 
+def runs(replay: Replay) -> bool:
+    """Whether a model is compared with runners, so that nothing that is known of walkers stands beside it."""
+    return any(one.norm.name.startswith(RUNNING) for one in followed(replay))
+
+
 def _norm(model: Model, part: Part, source: str, library: Library) -> Norm:
     """The recorded curve of a measure, with its deviation if its table is at hand."""
     recording = part.series["curve"]
@@ -117,8 +122,13 @@ def matched_signals(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
 
 
 def matched_moments(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
-    """Joint moments over body mass of the joints whose angles are followed, with the sense of people's table."""
+    """Joint moments over body mass of the joints whose angles are followed, with the sense of people's table.
+
+    None for a runner: the table is of walking.
+    """
     library, found = library_of(replay), []
+    if runs(replay):
+        return []
     for one in followed(replay):
         column = _MOMENT_OF.get(one.norm.name.rpartition(".")[2])
         if column is None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.drawings.style import FONT, GREY, above, labelled, panels, quantity
-from gaitsim.analysis.gait.comparison import Followed, Matched, followed, matched_moments, matched_signals
+from gaitsim.analysis.gait.comparison import Followed, Matched, followed, matched_moments, matched_signals, runs
 from gaitsim.analysis.gait.footsteps import double_support, lacks_center, margin, steps, symmetry
 from gaitsim.analysis.gait.joint_moments import hidden_paths, joint_power, joint_work
 from gaitsim.analysis.gait.keypoints import FORWARDS, PEAKS_BY, POWERS, VERTICAL, draw_peaks, name_peaks
@@ -35,7 +35,7 @@ def gait_figures(replay: Replay) -> list[Drawing]:
         return []
     return [
         *_angles(replay, legs),
-        _forces(legs),
+        _forces(replay, legs),
         *pressure_figures(replay, legs),
         *_moments(replay, legs),
         *activation_figures(replay, legs),
@@ -99,15 +99,18 @@ def _angles(replay: Replay, legs: Legs) -> list[Drawing]:
     return [Drawing("gait_angles", title, caption, figure)]
 
 
-def _forces(legs: Legs) -> Drawing:
+def _forces(replay: Replay, legs: Legs) -> Drawing:
     figure, (vertical, forward) = panels(2, 1, height=1.9, share=True)
     for leg in legs:
         load, shear = leg.over_cycle(leg.load), leg.over_cycle(leg.shear)
         draw_cycle(vertical, leg, load)
         draw_cycle(forward, leg, shear)
-    draw_peaks(vertical, VERTICAL)
-    draw_peaks(forward, FORWARDS)
-    name_peaks(vertical)
+    peaks = ""
+    if not runs(replay):
+        draw_peaks(vertical, VERTICAL)
+        draw_peaks(forward, FORWARDS)
+        name_peaks(vertical)
+        peaks = f" Green: peaks of healthy people at natural speed, level ({PEAKS_BY})."
     vertical.axhline(1, color=GREY, linewidth=0.8, linestyle=":")
     vertical.set_ylabel("vertical (body weights)")
     forward.set_ylabel("forwards (body weights)")
@@ -115,8 +118,7 @@ def _forces(legs: Legs) -> Drawing:
     above(vertical)
     caption = (
         "Force of the ground on each foot in body weights, along the ground's normal and forwards along the ground: "
-        f"{said(legs)}. {SPREAD} Dotted: take-off. Green: peaks of healthy people at natural speed, level "
-        f"({PEAKS_BY}). The table Gait has the peaks."
+        f"{said(legs)}. {SPREAD} Dotted: take-off.{peaks} The table Gait has the peaks."
     )
     return Drawing("gait_forces", "Ground reaction forces over the gait cycle", caption, figure)
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.drawings.style import FONT, above, labelled, panels
+from gaitsim.analysis.gait.comparison import runs
 from gaitsim.analysis.gait.keypoints import ON, ON_BY, draw_on
 from gaitsim.analysis.gait.legs import SIDES, Leg, mass, side_of, unsided
 from gaitsim.analysis.gait.panels import PEOPLE, SPREAD, draw_cycle, name_lines, said
@@ -32,10 +33,12 @@ def activation_figures(replay: Replay, legs: Legs) -> list[Drawing]:
     if not names:
         return []
     figure, axes = panels((len(names) + 1) // 2, 2, height=1.3, share=True)
+    known = set() if runs(replay) else names.keys() & ON.keys()
     for panel, name in zip(axes, names, strict=False):
         for leg in legs:
             draw_cycle(panel, leg, leg.over_cycle(replay.trajectory[f"{names[name][leg.side]}.activation"]))
-        draw_on(panel, name)
+        if name in known:
+            draw_on(panel, name)
         panel.set_title(name.replace("_", " "), loc="left", fontsize=FONT)
         panel.set_ylim(0, 1.02)
     for unused in axes[len(names) :]:
@@ -45,7 +48,6 @@ def activation_figures(replay: Replay, legs: Legs) -> list[Drawing]:
     for panel in axes[::2]:
         panel.set_ylabel(labelled("activation", "1"))
     figure.supxlabel(labelled("gait cycle", "%"), fontsize=FONT)
-    known = names.keys() & ON.keys()
     if known:
         axes[0].plot([], [], color=PEOPLE, linewidth=4, label="on in people")
     name_lines(figure, axes[0])
