@@ -13,11 +13,11 @@ export GAITSIM_CACHE := $(CURDIR)/.cache/gaitsim
 help:
 	@sed -n 's/^\([a-z-]*\):.*## /make \1	/p' Makefile
 
-setup: $(READY) ## make .venv with gaitsim and the tools for its tests
+setup: $(READY) ## create .venv with gaitsim and its development tools
 run: $(READY) ## simulate the hopper of Geyer et al. (2003)
 	.venv/bin/gaitsim run specs/hopping_geyer2003.yaml
 
-check: $(READY) ## ruff and mypy
+check: $(READY) ## run ruff and mypy
 	.venv/bin/ruff format --check .
 	.venv/bin/ruff check .
 	.venv/bin/mypy
@@ -25,31 +25,31 @@ check: $(READY) ## ruff and mypy
 # Neighbouring tests stay in one process, so that what a file shares is made once.
 TESTS := .venv/bin/pytest -n 2 --dist worksteal
 
-test: check ## check, then the fast tests: what must hold before a change is merged
+test: check ## run check and the fast tests, as required before a merge
 	$(TESTS) -m "not slow"
 
-test-all: check ## check, then all tests, with long physics and killed searches: before a release
+test-all: check ## run check and all tests, including long simulations and killed searches, as required before a release
 	$(TESTS)
 
-archive: $(READY) ## run every model again and compare with its record (half a minute)
+archive: $(READY) ## run every model again and compare it with its record (half a minute)
 	.venv/bin/gaitsim archive check
 
-docs: $(READY) ## build the documentation in site/; a broken link is an error
+docs: $(READY) ## build the documentation in site/ (a broken link is an error)
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet
 
-bench: $(READY) ## time steps, whole commands, growing models, and workers (four minutes)
+bench: $(READY) ## measure time per step, whole commands, growing models and workers (4 minutes)
 	.venv/bin/python bench/bench.py $(BENCH)
 
-bench-page: $(READY) ## the same, as docs/benchmarks.md
+bench-page: $(READY) ## run bench and write docs/benchmarks.md
 	.venv/bin/python bench/bench.py --page docs/benchmarks.md
 
-muscles: $(READY) ## tune the hopper with every muscle model: height, work, wall time (some minutes)
+muscles: $(READY) ## tune the hopper with every muscle model and compare them (some minutes)
 	.venv/bin/python bench/muscle_models.py
 
-walker: $(READY) ## what the walker takes: contacts, first walks of seeds, swaps tuned again (an hour)
+walker: $(READY) ## measure the walker: contact models, evaluations to a first walk, re-tuned variants (an hour)
 	.venv/bin/python bench/walker.py
 
-clean: ## remove .venv and all caches; results/ stays
+clean: ## remove .venv and all caches, but not results/
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache bench/build site
 	find gaitsim library tests bench specs docs -name __pycache__ -prune -exec rm -rf {} +
 

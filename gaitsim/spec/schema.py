@@ -77,15 +77,15 @@ class SimulateSection(_Section):
     """How long, in which steps, under which gravity."""
 
     duration: _Seconds = Field(description="Simulated time.")
-    step: _Seconds = Field(description="Length of one step.")
+    step: _Seconds = Field(description="Time step.")
     gravity: _Acceleration = Field(
         default=9.81, description="Gravitational acceleration, downwards. Geyer et al. 2003."
     )
     integrator: Literal["automatic", "euler", "implicitfast", "rk4"] = Field(
         default="automatic",
-        description="MuJoCo's semi-implicit Euler, or the same with implicit velocity forces; "
-        "by itself the latter exactly if a part has such forces. Or Runge-Kutta of order 4, with the forces of parts "
-        "carried on to the middle of each step: of order 4 without such forces, else of order 2.",
+        description="euler is MuJoCo's semi-implicit Euler; implicitfast treats forces linear in velocity implicitly; "
+        "automatic uses implicitfast if a part has such forces, else euler. rk4 is Runge-Kutta, with the forces of "
+        "parts extrapolated within the step: of order 4 without forces of parts, else of order 2.",
     )
 
 
@@ -93,11 +93,14 @@ class SearchSection(_Section):
     """How a search goes; the command line may say otherwise."""
 
     algorithm: str = Field(default=DEFAULT, description=f"Search algorithm: {alternatives(ALGORITHMS)}.")
-    population: Annotated[int, Field(ge=2)] | None = Field(default=None, description="Candidates a generation.")
-    generations: int = Field(default=100, ge=1, description="Generations at most.")
+    population: Annotated[int, Field(ge=2)] | None = Field(default=None, description="Candidates per generation.")
+    generations: int = Field(default=100, ge=1, description="Largest number of generations.")
     seed: int = Field(default=1, ge=0, description="Seed of the search.")
     spread_factor: float = Field(
-        default=1.0, gt=0, le=100, description="Factor on every spread: below 1 a search stays nearer to its start."
+        default=1.0,
+        gt=0,
+        le=100,
+        description="Factor on every spread. A factor below 1 keeps a search closer to its start.",
     )
 
 
@@ -106,32 +109,32 @@ class OptimizeSection(SearchSection):
 
     episodes: list[dict[str, Any]] = Field(
         default=[],
-        description="Overrides, one simulation each for every candidate, such as seeds, pushes or slopes.",
+        description="Overrides. Each candidate is simulated once for each of them, such as seeds, pushes or slopes.",
     )
     combine: Annotated[str, BeforeValidator(_combination)] = Field(
         default="mean",
-        description="The score of a candidate: mean, worst, or such as quantile 0.9 of its episodes' scores.",
+        description="How the scores of the episodes become one score: mean, worst, or a quantile such as quantile 0.9.",
     )
 
 
 class Header(_Section):
     """A spec, as far as its shape is fixed; parts are checked against their components."""
 
-    gaitsim: Literal[1] = Field(description="Version of this grammar.")
+    gaitsim: Literal[1] = Field(description="Version of the spec format.")
     about: str = Field(default="", description="What the model is, and its source.")
-    extends: str = Field(default="", description="A spec to start from; path relative to this file.")
+    extends: str = Field(default="", description="A spec to extend; its path is relative to this file.")
     use_for: dict[str, Any] = Field(
         default={},
-        description="A component for every part of a kind: kind/name, or {use: kind/name, ...} with numbers.",
+        description="The component for all parts of a kind: kind/name, or {use: kind/name, ...} with parameters.",
     )
-    parameters: dict[str, Any] = Field(default={}, description="Numbers used in several places as =name.")
-    parts: dict[str, Any] = Field(description="The model's parts, by name.", min_length=1)
+    parameters: dict[str, Any] = Field(default={}, description="Named numbers, which parts use as =name.")
+    parts: dict[str, Any] = Field(description="The parts of the model, by name.", min_length=1)
     initial: dict[str, Any] = Field(default={}, description="Initial coordinates and states, by address.")
-    measures: dict[str, Any] = Field(default={}, description="What is measured in the loop, by name.")
-    objective: dict[str, Any] = Field(default={}, description="The component that turns metrics into a cost.")
-    simulate: SimulateSection = Field(description="Duration and step.")
-    optimize: OptimizeSection = Field(default=OptimizeSection(), description="How the spec is searched.")
-    study: list[dict[str, Any]] = Field(default=[], description="Overrides, one run each: a table.")
+    measures: dict[str, Any] = Field(default={}, description="Measures that run with the simulation, by name.")
+    objective: dict[str, Any] = Field(default={}, description="The component that computes a cost from the metrics.")
+    simulate: SimulateSection = Field(description="Duration, time step and integrator.")
+    optimize: OptimizeSection = Field(default=OptimizeSection(), description="How the parameters are tuned.")
+    study: list[dict[str, Any]] = Field(default=[], description="A table of overrides. Each row is one run.")
 
 
 _SECTIONS: dict[str, type[_Section]] = {"simulate": SimulateSection, "optimize": OptimizeSection}
