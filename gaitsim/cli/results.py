@@ -1,20 +1,26 @@
-"""gaitsim results: list, show and verify what was kept."""
+"""gaitsim results: list, show and verify what was kept, and all that is done with it."""
 
 from __future__ import annotations
 
+import math
+from enum import StrEnum
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Annotated
 
 import typer
 
-from gaitsim.cli import console
+from gaitsim.cli import compare, console, results_files
 from gaitsim.cli.options import Json, Trust
 from gaitsim.folders import results_folder
-from gaitsim.whole import PARTIAL
 
-app = typer.Typer(help="List, show and verify results.", no_args_is_help=True, rich_markup_mode=None)
-_FAILED = 4
+app = typer.Typer(
+    help="List, compare, verify, note, share and remove results.", no_args_is_help=True, rich_markup_mode=None
+)
+_FAILED, _BRIEF = 4, 60  # an exit code; letters of a note
 Folder = Annotated[Path, typer.Argument(metavar="RESULT", help="A result folder.")]
+
+
+_ORDERS = StrEnum("_ORDERS", ["created", "name", "score", "evaluations"])
 
 
 @app.command("list")
@@ -23,24 +29,47 @@ def list_results(
         Path | None,
         typer.Argument(metavar="[FOLDER]", help="Folder of the results (default: $GAITSIM_RESULTS, or else results)."),
     ] = None,
+    name: Annotated[str | None, typer.Option(metavar="PATTERN", help="Only of specs named so, such as 'hop*'.")] = None,
+    kind: Annotated[str | None, typer.Option(metavar="KIND", help="Only run, or only optimize.")] = None,
+    status: Annotated[str | None, typer.Option(metavar="STATUS", help="Only complete, interrupted or running.")] = None,
+    since: Annotated[str | None, typer.Option(metavar="DATE", help="Only from a day on, such as 2026-11-22.")] = None,
+    uses: Annotated[
+        str | None, typer.Option(metavar="KIND/NAME", help="Only with a component, such as muscle/geyer2003.")
+    ] = None,
+    noted: Annotated[str | None, typer.Option(metavar="TEXT", help="Only those whose notes hold a text.")] = None,
+    sort: Annotated[_ORDERS, typer.Option(help="Order of the rows; the best score is first.")] = _ORDERS.created,
     json: Json = False,
 ) -> None:
     """List results, oldest first.
 
-    Example: gaitsim results list
+    Examples:
+
+    gaitsim results list
+
+    gaitsim results list --name 'hop*' --kind optimize --sort score
     """
-    made = [path.parent for path in sorted(results_folder(folder).glob("*/manifest.json"))]
-    rows = [_summary(path) for path in made if path.suffix != PARTIAL]
-    rows.sort(key=lambda row: str(row["created"]))
+    from gaitsim.results.catalog import Filter, listed
+
+    wanted = Filter(name, kind, status, since, uses, noted)
+    rows = listed(results_folder(folder), wanted, sort.value)
     if json:
         console.give_json({"results": rows})
         return
-    columns = ["result", "kind", "status", "best score", "evaluations", "created"]
+    columns = ["result", "kind", "status", "best score", "evaluations", "created", "notes"]
     cells = [
-        (r["result"], r["kind"], r["status"], console.shown(r["best_score"]), str(r["evaluations"] or ""), r["created"])
+        (
+            *(r["result"], r["kind"], r["status"], console.shown(r["best_score"]), str(r["evaluations"] or "")),
+            *(r["created"], _brief(r["notes"])),
+        )
         for r in rows
     ]
     console.give_table(columns, cells)
+
+
+def _brief(notes: str) -> str:
+    """The last note in one short line."""
+    last = next((line.strip(" -") for line in reversed(notes.splitlines()) if line.strip()), "")
+    return last if len(last) <= _BRIEF else f"{last[: _BRIEF - 3]}..."
 
 
 @app.command("show")
@@ -51,20 +80,26 @@ def show_result(folder: Folder, json: Json = False) -> None:
     """
     from gaitsim.analysis.searches.convergence import tuned_in
     from gaitsim.results.manifest import read_manifest
+    from gaitsim.results.notes import notes_of
 
     manifest = read_manifest(folder)
     if json:
-        console.give_json({"result": str(folder), **manifest})
+        console.give_json({"result": str(folder), **manifest, "notes": notes_of(folder)})
         return
     for key in ("name", "kind", "status", "mode", "created", "gaitsim", "best_score", "evaluations", "failed", "stop"):
         if key in manifest:
             console.give(f"{key:<12} {manifest[key]}")
+    if commit := manifest.get("commit"):
+        words = ", with changes that were not committed: changes.diff" if commit["dirty"] else ""
+        console.give(f"{'commit':<12} {commit['hash']}{words}")
     columns = ("low", "high", "start", "best", "mean", "std")
     tuned = tuned_in(folder, manifest)
     rows = [(row.address, row.unit, *(console.shown(getattr(row, name)) for name in columns)) for row in tuned]
     if rows:
         console.give("")
         console.give_table(["address", "unit", *columns], rows)
+    if notes := notes_of(folder):
+        console.give(f"\n{notes}")
 
 
 @app.command("verify")
@@ -81,37 +116,44 @@ def verify(
     Example: gaitsim results verify results/2026-11-22-hopping-3f9c
     """
     from gaitsim.optimization.journal import old_form_notices
-    from gaitsim.results.manifest import changed_versions, read_result
+    from gaitsim.results.manifest import changed_makers, read_result
     from gaitsim.results.trust import check_trust
     from gaitsim.study.verify import verified
 
     manifest, bundle = read_result(folder)
     check_trust(bundle, trust)
-    changed = changed_versions(manifest)
+    changed = changed_makers(manifest)
     for notice in old_form_notices(folder) if manifest["kind"] == "optimize" else ():
         console.say(notice)
     checks = list(verified(bundle, manifest, everything))
     wrong = [check for check in checks if check.differs]
     if changed:
-        console.say(f"other versions than when it was made: {', '.join(changed)}")
+        console.say(f"others than when it was made: {', '.join(changed)}")
     if json:
-        data = [{"candidate": c.name, "differs": list(c.differs)} for c in checks]
+        data = [{"candidate": c.name, "differs": list(c.differs), "largest": c.largest} for c in checks]
         status = "differs" if wrong else "reproduced"
         console.give_json({"result": str(folder), "status": status, "checked": data, "versions": changed})
     else:
         for check in wrong:
             console.give(f"{check.name}: {'; '.join(check.differs)}")
+        if wrong:
+            console.say(_why(max(check.largest for check in wrong), changed))
         console.give(f"{folder}: {len(checks) - len(wrong)} of {len(checks)} runs reproduced bit for bit")
     return _FAILED if wrong else 0
 
 
-def _summary(folder: Path) -> dict[str, Any]:
-    """A result in the list; one whose manifest cannot be read is there too, as damaged."""
-    from gaitsim.results.manifest import BadResult, recorded_manifest
+def _why(largest: float, changed: list[str]) -> str:
+    """What is said of a result that does not reproduce."""
+    far = (
+        f"numbers differ by up to {largest:.1e} of their value" if math.isfinite(largest) else "the runs went otherwise"
+    )
+    if changed:
+        return f"{far}; bits are the same only with the same versions and processor, and these are others"
+    return f"{far}, with the versions and the processor that made them; please report this as a fault of gaitsim"
 
-    try:
-        manifest = recorded_manifest(folder)
-    except BadResult:
-        manifest = {"kind": "?", "status": "damaged", "created": ""}
-    keys = ("kind", "status", "best_score", "evaluations", "created")
-    return {"result": str(folder), **{key: manifest.get(key) for key in keys}}
+
+app.command("compare")(compare.compare)
+app.command("note")(results_files.note)
+app.command("export")(results_files.export)
+app.command("import")(results_files.import_result)
+app.command("remove")(results_files.remove)

@@ -16,7 +16,7 @@ from gaitsim.folders import results_folder
 from gaitsim.results.bundle import BadResult as BadResult
 from gaitsim.results.bundle import Bundle, read_bundle
 from gaitsim.results.lock import state_of
-from gaitsim.results.provenance import provenance, versions
+from gaitsim.results.provenance import machine, provenance, versions
 from gaitsim.whole import write_whole
 
 _NAME = "manifest.json"
@@ -40,15 +40,15 @@ def result_named(path: Path, results: Path | None = None) -> Path:
     return found if len(path.parts) == 1 and not path.exists() and (found / _NAME).is_file() else path
 
 
-def new_manifest(kind: str, bundle: Bundle, mode: str, **more: Any) -> dict[str, Any]:
-    """The manifest of a result that is about to be made."""
+def new_manifest(kind: str, bundle: Bundle, mode: str, place: Path, **more: Any) -> dict[str, Any]:
+    """The manifest of a result that is about to be made; place: the folder of its spec."""
     return {
         "kind": kind,
         "status": "running",
         "format": FORMAT,
         "name": bundle.name,
         "mode": mode,
-        **provenance(),
+        **provenance(place),
         "digest": bundle.digest,
         **more,
     }
@@ -116,6 +116,17 @@ def read_result(folder: Path) -> tuple[dict[str, Any], Bundle]:
 
     Errors: BadResult.
     """
+    check_is_result(folder)
+    manifest = recorded_manifest(folder)
+    bundle = read_bundle(folder, manifest["name"])
+    if bundle.digest != manifest["digest"]:
+        rule = "its spec or components were edited after it was made, so it would not re-run as it was"
+        raise BadResult(f"{folder}: {rule}; restore them, or copy the folder's spec.yaml and run that.")
+    return manifest, bundle
+
+
+def check_is_result(folder: Path) -> None:
+    """Errors: BadResult for what is no result, or one that was never finished being made."""
     if not folder.is_dir():
         near = sorted(p.name for p in folder.absolute().parent.glob("*") if (p / _NAME).is_file())
         known = f"; the last are: {', '.join(near[-5:])}" if near else ""
@@ -123,12 +134,6 @@ def read_result(folder: Path) -> tuple[dict[str, Any], Bundle]:
     if not (folder / _NAME).is_file():
         rule = "there is no manifest.json, so this is no result, or one that was never finished being made"
         raise BadResult(f"{folder}: {rule}; name another, or see: gaitsim results list")
-    manifest = recorded_manifest(folder)
-    bundle = read_bundle(folder, manifest["name"])
-    if bundle.digest != manifest["digest"]:
-        rule = "its spec or components were edited after it was made, so it would not re-run as it was"
-        raise BadResult(f"{folder}: {rule}; restore them, or copy the folder's spec.yaml and run that.")
-    return manifest, bundle
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
@@ -145,3 +150,9 @@ def changed_versions(manifest: dict[str, Any]) -> list[str]:
         for name, version in after.items()
         if before.get(name) != version
     ]
+
+
+def changed_makers(manifest: dict[str, Any]) -> list[str]:
+    """What differs between what made the result and this machine, which may change last digits: versions, processor."""
+    before, after = manifest.get("machine", {}).get("cpu"), machine()["cpu"]
+    return [*changed_versions(manifest), *([f"processor {before} -> {after}"] if before not in (None, after) else [])]

@@ -13,24 +13,54 @@ from typing import Any
 
 from gaitsim import __version__
 
+_LARGEST = 2**20  # bytes of a patch
 _LIBRARIES = ("mujoco", "numba", "numpy", "pydantic", "pyyaml", "cma")
 
 
-def provenance() -> dict[str, Any]:
-    """What a result must remember of its making."""
+def provenance(place: Path) -> dict[str, Any]:
+    """What a result must remember of its making. place: the folder of its spec."""
     return {
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "command": [Path(sys.argv[0]).name, *sys.argv[1:]],
         "gaitsim": __version__,
         "versions": versions(),
-        "machine": {"system": platform.platform(), "cpu": _processor()},
-        "commit": _commit(Path.cwd()),
+        "machine": machine(),
+        "commit": _commit(place),
     }
 
 
 def versions() -> dict[str, str]:
     """The version of Python and of each library that numbers depend on."""
     return {"python": platform.python_version()} | {name: version(name) for name in _LIBRARIES}
+
+
+def machine() -> dict[str, str]:
+    """The system and the processor, for which native code is made."""
+    return {"system": platform.platform(), "cpu": _processor()}
+
+
+def changes(place: Path) -> str:
+    """What differs from the last commit in the repository of a folder: a patch, below a list of all changed files.
+
+    Nothing if nothing differs, or outside a checkout. A patch of more than 1 MiB is left out, and the text says so.
+    """
+    try:
+        status = _status(place)
+        if not status:
+            return ""
+        patch = _git("diff", "--no-color", "--no-ext-diff", "--no-textconv", "HEAD", folder=place)
+    except (OSError, subprocess.SubprocessError):
+        return ""
+    size = len(patch.encode())
+    if size > _LARGEST:
+        patch = f"# a patch of {size / 2**20:.1f} MiB is left out; the most that is kept is {_LARGEST / 2**20:g} MiB"
+    return "\n".join([*(f"# {line}" for line in status.splitlines()), patch, ""])
+
+
+def changes_file(place: Path) -> dict[str, str]:
+    """The file of a result that holds `changes`, if there are any: name -> text."""
+    found = changes(place)
+    return {"changes.diff": found} if found else {}
 
 
 def _processor() -> str:
@@ -40,14 +70,17 @@ def _processor() -> str:
 
 
 def _commit(folder: Path) -> dict[str, Any] | None:
-    """The git commit of the working folder and whether it has changes; None outside a checkout."""
+    """The git commit of a folder's repository and whether it has changes; None outside a checkout."""
     try:
         head = _git("rev-parse", "HEAD", folder=folder)
-        # A checkout may name a program that watches its files, which this would start.
-        status = _git("-c", "core.fsmonitor=false", "status", "--porcelain", folder=folder)
-        return {"hash": head, "dirty": bool(status)}
+        return {"hash": head, "dirty": bool(_status(folder))}
     except (OSError, subprocess.SubprocessError):
         return None
+
+
+def _status(folder: Path) -> str:
+    # A checkout may name a program that watches its files, which this would start.
+    return _git("-c", "core.fsmonitor=false", "status", "--porcelain", folder=folder)
 
 
 def author() -> str:
@@ -70,5 +103,5 @@ def _setting(key: str) -> str:
 
 
 def _git(*words: str, folder: Path) -> str:
-    ran = subprocess.run(["git", *words], cwd=folder, capture_output=True, text=True, check=True, timeout=10)
-    return ran.stdout.strip()
+    ran = subprocess.run(["git", *words], cwd=folder, capture_output=True, check=True, timeout=10)
+    return ran.stdout.decode("utf-8", "replace").rstrip()

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-_NOTES = "## Notes"
+NOTES = "## Notes"
 
 
 def readme(manifest: dict[str, Any], headline: Sequence[str], before: str) -> str:
     """The text; notes that stand in the one before are kept."""
     commit = manifest.get("commit")
     origin = f"commit {commit['hash'][:12]}{' with changes' if commit['dirty'] else ''}" if commit else "no commit"
-    _, _, notes = before.partition(_NOTES)
+    _, _, notes = before.partition(NOTES)
     lines = [
         f"# {manifest['name']}",
         "",
@@ -20,6 +20,6 @@ def readme(manifest: dict[str, Any], headline: Sequence[str], before: str) -> st
         "",
         *(f"- {line}" for line in headline),
         "",
-        f"{_NOTES}{notes}" if notes else f"{_NOTES}\n",
+        f"{NOTES}{notes}" if notes else f"{NOTES}\n",
     ]
     return "\n".join(lines)

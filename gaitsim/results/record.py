@@ -16,6 +16,7 @@ from gaitsim.optimization.draws import Draws
 from gaitsim.results.bundle import Bundle
 from gaitsim.results.lock import Lock
 from gaitsim.results.manifest import new_manifest
+from gaitsim.results.provenance import changes_file
 from gaitsim.results.readme import readme
 from gaitsim.results.rows import row_words
 from gaitsim.results.store import CannotSave, create_result, finish, row_data
@@ -31,18 +32,19 @@ _TOLD = 20  # runs that the README lists
 class Record:
     """A result folder that begins with its first run. What was written of it stays, whatever comes after.
 
-    model: the first one that is run; xml: its MJCF. draws: around the model's starts, if the runs are these.
+    model: the first one that is run; xml: its MJCF. place: the folder of its spec. draws: around the model's starts, if the runs are these.
     """
 
     def __init__(
-        self, root: Path, bundle: Bundle, model: Model, xml: str, mode: str, draws: Draws | None = None
+        self, root: Path, bundle: Bundle, model: Model, xml: str, mode: str, place: Path, draws: Draws | None = None
     ) -> None:
         self.folder: Path | None = None
         self._root, self._bundle, self._model, self._xml, self._draws = root, bundle, model, xml, draws
-        self._manifest = new_manifest("run", bundle, mode, notices=list(model.notices))
+        self._manifest = new_manifest("run", bundle, mode, place, notices=list(model.notices))
         if draws:
             self._manifest["draws"] = asdict(draws)
         self._drawn = draws.values(problem_of(model)) if draws else []
+        self._changes = changes_file(place)
         self._rows: list[dict[str, Any]] = []
         self._held = ExitStack()
 
@@ -53,7 +55,7 @@ class Record:
             row |= {"draw": len(self._rows) + 1, "values": self._drawn[len(self._rows)]}
         line = json.dumps(row, allow_nan=False) + "\n"
         if self.folder is None:
-            more = {_ROWS: line, "README.md": readme(self._manifest, [], "")}
+            more = {_ROWS: line, "README.md": readme(self._manifest, [], ""), **self._changes}
             self.folder = create_result(self._root, self._bundle, self._model, self._xml, self._manifest, more, _MOVE)
             self._held.enter_context(Lock(self.folder))
         else:

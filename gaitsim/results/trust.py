@@ -40,12 +40,17 @@ def check_trust(bundle: Bundle, trusted: bool) -> None:
     """
     if trusted:
         return
-    known = _known_here() | set(_shipped())
-    strange = [path for path, digest in _code_in(bundle).items() if digest not in known]
+    strange = strangers(bundle)
     if strange:
         names = ", ".join(shown(bundle.folder / path) for path in strange)
         rule = "running it would run code that this machine does not know"
         raise Untrusted(f"{bundle.folder}: {rule}: {names}; read these files, then use --trust.")
+
+
+def strangers(bundle: Bundle) -> list[str]:
+    """The component files in Python that this machine does not know, as paths in the bundle."""
+    known = _known_here() | set(_shipped())
+    return [path for path, digest in _code_in(bundle).items() if digest not in known]
 
 
 def _code_in(bundle: Bundle) -> dict[str, str]:

@@ -78,7 +78,7 @@ def analyzed(openings: Sequence[Opening], candidates: Sequence[str], wanted: Wan
     spacing = seconds_of("--every", wanted.every)
     products = Products(Path(), listener=listener)
     sources = _opened(openings, candidates, products)
-    products.folder = _made(wanted.folder or _default_folder(sources))
+    products.folder = writable(wanted.folder or _default_folder(sources))
     with listener.waiting("running again"):
         replays = _replayed(sources, window, products)
     against = [wanted.against] if wanted.against else []
@@ -195,7 +195,7 @@ def _default_folder(sources: list[tuple[Path, str, Source]]) -> Path:
     return own if len(sources) == 1 else own / "comparison"
 
 
-def _made(folder: Path) -> Path:
+def writable(folder: Path) -> Path:
     """The folder, which can be written to. Errors: CannotSave."""
     from gaitsim.results.store import CannotSave
 

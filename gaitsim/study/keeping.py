@@ -45,7 +45,7 @@ class Keeping:
 
         model = self._models[0]
         xml = assemble(model, model.values()).xml
-        return Record(root, self._source.bundle(self._models), model, xml, self._mode, self._draws)
+        return Record(root, self._source.bundle(self._models), model, xml, self._mode, self._source.place, self._draws)
 
     @contextmanager
     def noting(self) -> Iterator[None]:

@@ -91,7 +91,7 @@ def _as_written(opening: Opening) -> Source:
     """A spec that starts where it says."""
     from gaitsim.study.source import Source
 
-    return Source(opening.document(), opening.library(), opening.path.stem, {})
+    return Source(opening.document(), opening.library(), opening.path.stem, {}, place=opening.path.parent)
 
 
 def _tuned(opening: Opening) -> Source:

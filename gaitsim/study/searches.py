@@ -20,6 +20,7 @@ from gaitsim.results.manifest import (
     read_result,
     recorded_manifest,
 )
+from gaitsim.results.provenance import changes_file
 from gaitsim.results.store import create_result
 from gaitsim.results.trust import check_trust
 from gaitsim.results.tuned import problem_of
@@ -93,8 +94,9 @@ def begun(request: Request, root: Path) -> Tuning:
     starts.look_at(simulator)
     bundle = source.bundle([model, *each])
     told = {"spec": str(request.opening.path), "search": search, "smoke": request.smoke, "notices": notices}
-    manifest = new_manifest("optimize", bundle, mode, **told)
-    folder = create_result(root, bundle, model, simulator.xml, manifest, {"evaluations.jsonl": ""}, _MOVE)
+    manifest = new_manifest("optimize", bundle, mode, source.place, **told)
+    more = {"evaluations.jsonl": "", **changes_file(source.place)}
+    folder = create_result(root, bundle, model, simulator.xml, manifest, more, _MOVE)
     bundle = replace(bundle, folder=folder)
     return Tuning(folder, manifest, bundle, model, [*model.notices, *starts.warnings, *notices])
 

@@ -26,7 +26,7 @@ from gaitsim.text.document import Mapping
 class Source:
     """A document, the components it may use, and where its tuned numbers start.
 
-    origin: where the starts come from, in words.
+    origin: where the starts come from, in words. place: the folder of the spec; of a result, the current folder.
     manifest, recorded: of a result, and what it says of the run that this is (as `row_data`).
     """
 
@@ -38,6 +38,7 @@ class Source:
     manifest: Map[str, Any] = field(default_factory=dict)
     recorded: Map[str, Any] = field(default_factory=dict)
     origin: str = ""
+    place: Path = Path()
 
     def model(self, document: Mapping | None = None) -> Model:
         """The model of the document, or of a variant of it."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from collections.abc import Mapping as Map
 from dataclasses import dataclass
@@ -20,10 +21,14 @@ from gaitsim.spec.resolve import resolve
 
 @dataclass(frozen=True)
 class Check:
-    """One candidate run again: its name and what differs, if anything."""
+    """One candidate run again: its name and what differs, if anything.
+
+    largest: relative difference of a number; inf if more than numbers differs, 0 if nothing does.
+    """
 
     name: str
     differs: tuple[str, ...]
+    largest: float
 
 
 def verified(bundle: Bundle, manifest: Map[str, Any], everything: bool) -> Iterator[Check]:
@@ -43,7 +48,7 @@ def verified(bundle: Bundle, manifest: Map[str, Any], everything: bool) -> Itera
     for evaluation in found if everything else _sample(found):
         place = evaluation.candidate
         before, now = vars(evaluation.verdict), vars(episodes.verdict(place.x))
-        yield Check(f"{place.generation}:{place.index}", differences(before, now))
+        yield _check(f"{place.generation}:{place.index}", before, now)
 
 
 def _runs(bundle: Bundle, mode: Mode) -> Iterator[Check]:
@@ -54,20 +59,35 @@ def _runs(bundle: Bundle, mode: Mode) -> Iterator[Check]:
             variant = override(variant, address, text)
         model = resolve(variant, library, bundle.name).started_at(starts | row_starts(row))
         now = row_data(row["settings"], Simulator(model, mode).run())
-        yield Check(", ".join(f"{a}={v}" for a, v in row["settings"].items()) or f"run {i}", differences(row, now))
+        yield _check(", ".join(f"{a}={v}" for a, v in row["settings"].items()) or f"run {i}", row, now)
+
+
+def _check(name: str, before: Map[str, Any], now: Map[str, Any]) -> Check:
+    pairs = list(_pairs(before, now))
+    off = [_relative(old, new) for _, old, new in pairs if old != new]
+    return Check(name, differences(before, now), max(off, default=0.0))
+
+
+def _relative(old: object, new: object) -> float:
+    """By how much of the larger two numbers differ; inf for what is no number, or a count."""
+    if not (isinstance(old, float) and isinstance(new, float)):
+        return math.inf
+    return abs(new - old) / max(abs(old), abs(new))
 
 
 def differences(before: Map[str, Any], now: Map[str, Any]) -> tuple[str, ...]:
     """What two runs, as `row_data` gives them, do not share bit for bit, in words."""
-    found = []
+    return tuple(f"{what}: {old!r} -> {new!r}" for what, old, new in _pairs(before, now) if old != new)
+
+
+def _pairs(before: Map[str, Any], now: Map[str, Any]) -> Iterator[tuple[str, Any, Any]]:
+    """What is compared of two runs: its name, and what each has."""
     for name in COMPARED:
         if name == "metrics":
             both = [*before["metrics"], *(m for m in now["metrics"] if m not in before["metrics"])]
-            pairs = [(m, before["metrics"].get(m), now["metrics"].get(m)) for m in both]
+            yield from ((m, before["metrics"].get(m), now["metrics"].get(m)) for m in both)
         else:
-            pairs = [(name, before[name], now[name])]
-        found += [f"{what}: {old!r} -> {new!r}" for what, old, new in pairs if old != new]
-    return tuple(found)
+            yield name, before[name], now[name]
 
 
 def _sample(found: list[Evaluation]) -> list[Evaluation]:

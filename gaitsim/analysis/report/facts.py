@@ -110,7 +110,7 @@ def _draws_table(drawn: Drawn, units: Mapping[str, str]) -> Table:
 
 def origin(replay: Replay) -> list[tuple[str, str]]:
     """Where a run comes from, as terms and what is said of them."""
-    manifest = replay.manifest or provenance()
+    manifest = replay.manifest or provenance(replay.path.parent)
     commit = manifest.get("commit")
     simulate, search = replay.model.simulate, manifest.get("search", {})
     said = [

@@ -1,0 +1,93 @@
+"""The results of a folder as rows: filtered and in order."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from datetime import date
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Any
+
+from gaitsim.errors import Usage
+from gaitsim.results.bundle import COMPONENTS
+from gaitsim.results.manifest import BadResult, recorded_manifest
+from gaitsim.results.notes import notes_of
+from gaitsim.whole import PARTIAL
+
+_CHOICES = {"kind": ("run", "optimize"), "status": ("complete", "interrupted", "running", "damaged")}
+Row = Mapping[str, Any]
+
+
+def _number(key: str) -> Callable[[Row], float]:
+    """Sorts rows without that number to the end."""
+    return lambda row: math.inf if row[key] is None else row[key]
+
+
+ORDERS: Mapping[str, Callable[[Row], Any]] = {
+    "created": lambda row: str(row["created"]),
+    "name": lambda row: (str(row["name"]), str(row["created"])),
+    "score": _number("best_score"),
+    "evaluations": _number("evaluations"),
+}
+
+
+@dataclass(frozen=True)
+class Filter:
+    """Which results are wanted; None for all.
+
+    name: A pattern of the spec's name. since: A day such as 2026-11-22. uses: A component. noted: A text in the notes.
+    """
+
+    name: str | None = None
+    kind: str | None = None
+    status: str | None = None
+    since: str | None = None
+    uses: str | None = None
+    noted: str | None = None
+
+    def __post_init__(self) -> None:
+        """Errors: Usage for words that no result has."""
+        for option, words in _CHOICES.items():
+            said = getattr(self, option)
+            if said is not None and said not in words:
+                raise Usage(f"--{option} {said}: write {' or '.join(words)}.")
+        if self.since is not None:
+            try:
+                date.fromisoformat(self.since)
+            except ValueError as error:
+                raise Usage(f"--since {self.since}: this is no day; write one such as 2026-11-22.") from error
+        if self.uses is not None and self.uses.count("/") != 1:
+            raise Usage(f"--uses {self.uses}: write a component as KIND/NAME, such as muscle/geyer2003.")
+
+    def keeps(self, row: Row) -> bool:
+        """Whether a row is wanted."""
+        return (
+            (self.name is None or fnmatchcase(str(row["name"]), self.name))
+            and self.kind in (None, row["kind"])
+            and self.status in (None, row["status"])
+            and (self.since is None or str(row["created"])[:10] >= self.since)
+            and (self.uses is None or _uses(Path(row["result"]), self.uses))
+            and (self.noted is None or self.noted.lower() in row["notes"].lower())
+        )
+
+
+def listed(root: Path, wanted: Filter, order: str) -> list[dict[str, Any]]:
+    """The results in a folder that are wanted, in an order of `ORDERS`; what is still being made is not among them."""
+    folders = [path.parent for path in sorted(root.glob("*/manifest.json")) if path.parent.suffix != PARTIAL]
+    return sorted((row for row in map(_row, folders) if wanted.keeps(row)), key=ORDERS[order])
+
+
+def _row(folder: Path) -> dict[str, Any]:
+    """A result in the list; one whose manifest cannot be read is there too, as damaged."""
+    try:
+        manifest = recorded_manifest(folder)
+    except BadResult:
+        manifest = {"kind": "?", "status": "damaged", "created": "", "name": folder.name}
+    keys = ("name", "kind", "status", "best_score", "evaluations", "created")
+    return {"result": str(folder), **{key: manifest.get(key) for key in keys}, "notes": notes_of(folder)}
+
+
+def _uses(folder: Path, reference: str) -> bool:
+    return any((folder / COMPONENTS / f"{reference}{ending}").is_file() for ending in (".py", ".yaml"))

@@ -1,0 +1,54 @@
+"""The components that a result brings, and how they compare with those of one's own library."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from gaitsim.components.find import shipped_folder, shown
+from gaitsim.components.load import as_lines
+from gaitsim.components.places import serves
+from gaitsim.results.bundle import COMPONENTS, Bundle
+from gaitsim.results.trust import strangers
+
+
+@dataclass(frozen=True)
+class Copy:
+    """One component file of a result.
+
+    library: which of one's own has a file of this name: shipped, lab, project, a folder; empty for none.
+    same: whether that file is the same. strange: whether it is code that this machine does not know.
+    """
+
+    path: str
+    library: str
+    same: bool
+    strange: bool
+
+    @property
+    def words(self) -> str:
+        """What is said of it."""
+        if not self.library:
+            return "not in your libraries"
+        return f"{'same as' if self.same else 'differs from'} {self.library}"
+
+
+def copies(bundle: Bundle, folders: Sequence[Path]) -> list[Copy]:
+    """The component files of a bundle beside those in folders, of which the first that has one counts."""
+    strange = set(strangers(bundle))
+    found = []
+    for path, text in sorted(bundle.files.items()):
+        inner = path.removeprefix(f"{COMPONENTS}/")
+        if inner == path:
+            continue
+        folder = next((folder for folder in folders if (folder / inner).is_file()), None)
+        word = "" if folder is None else _word(folder)
+        same = folder is not None and as_lines((folder / inner).read_text(encoding="utf-8")) == text
+        found.append(Copy(path, word, same, path in strange))
+    return found
+
+
+def _word(folder: Path) -> str:
+    word = serves(folder, shipped_folder())
+    return shown(folder) if word == str(folder) else word
