@@ -36,7 +36,15 @@ LINK = re.compile(r"\]\((?!https?:)([^)#]+)(?:#[^)]*)?\)")
 NAMED = re.compile(r"`((?:gaitsim|tests|library|specs|bench|docs)/[\w./]+)`")
 GROUPS = ("archive", "library", "results")
 QUICK = {"check", "show", "cite", "new", "schema", "library list", "library show", "library check", "library new"}
-QUICK |= {"results list", "results show"}
+QUICK |= {
+    "results list",
+    "results show",
+    "results note",
+    "results remove",
+    "results export",
+    "results import",
+    "projects",
+}
 UNRUN = ("view", "--cluster", "--help", "--install-completion")
 SHORT = ["--mode", "normal", "--set", "simulate.duration=20 ms"]
 LONG = ("--vary", "--draws", "--convergence", "--adopt", "--resume", "simulate.")

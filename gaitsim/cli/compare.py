@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from gaitsim.study.comparison import Comparison, Pair
 
 _LONGEST = 40  # letters of a cell; --json has all
+_DIGITS = re.compile(r"\b\d+\.\d+(e[+-]?\d+)?\b")
 
 
 def compare(
@@ -50,7 +52,7 @@ def _tell(found: Comparison) -> None:
     from gaitsim.results.difference import KINDS, counted
 
     if found.changes:
-        rows = [(c.what, c.where, _cell(c.first), _cell(c.second)) for c in found.changes]
+        rows = [(c.what, c.where, *_cells(c.first, c.second)) for c in found.changes]
         console.give_table(["differs", "where", *found.labels], rows, "Models")
         console.give("; ".join(f"{KINDS[what]}: {count}" for what, count in counted(found.changes).items()))
     else:
@@ -66,10 +68,13 @@ def _tell(found: Comparison) -> None:
         console.give(f"{len(figures)} figure{'s' if len(figures) > 1 else ''} in {found.products.folder / 'figures'}")
 
 
-def _cell(text: str) -> str:
-    if not text:
-        return "-"
-    return text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..."
+def _cells(*texts: str) -> list[str]:
+    """Two texts for a table: numbers in six digits, unless they are then the same."""
+    short = [_DIGITS.sub(lambda found: f"{float(found[0]):.6g}", text) for text in texts]
+    chosen = short if short[0] != short[1] else texts
+    return [
+        text if len(text) <= _LONGEST else f"{text[: _LONGEST - 3]}..." for text in (text or "-" for text in chosen)
+    ]
 
 
 def _rows(pairs: Sequence[Pair]) -> list[tuple[str, ...]]:

@@ -81,10 +81,14 @@ def code_changes(first: Bundle, second: Bundle) -> list[Change]:
 
 
 def making_changes(first: Mapping[str, Any], second: Mapping[str, Any]) -> list[Change]:
-    """In what the manifests of two results differ: settings of their searches, versions. Nothing for specs."""
+    """In what the manifests of two results differ: settings of their searches, if both are, and versions.
+
+    Nothing for specs.
+    """
     if not (first and second):
         return []
-    searches = [{key: str(value) for key, value in each.get(_SEARCH, {}).items()} for each in (first, second)]
+    both = _SEARCH in first and _SEARCH in second
+    searches = [{key: str(value) for key, value in each[_SEARCH].items()} if both else {} for each in (first, second)]
     versions = [{"gaitsim": str(each["gaitsim"]), **each.get("versions", {})} for each in (first, second)]
     return [*_told("search", *searches), *_told("version", *versions)]
 

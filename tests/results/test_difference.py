@@ -100,6 +100,7 @@ def test_searches_and_versions() -> None:
     other = {"gaitsim": "0.1", "versions": {"numpy": "2"}, "search": {"seed": 2, "population": 8}}
     assert making_changes(one, other) == [Change("search", "seed", "1", "2"), Change("version", "numpy", "1", "2")]
     assert making_changes(one, {}) == []
+    assert [c.what for c in making_changes(one, {"gaitsim": "0.1", "versions": {"numpy": "2"}})] == ["version"]
 
 
 def test_a_component_of_ones_own_with_other_code(tmp_path: Path) -> None:
