@@ -259,24 +259,20 @@ simulate: {duration: 0.1 s, step: 1 ms}
     assert found["leg_l.center.z"][0] == pytest.approx(0.8)
 
 
-def test_orientation_is_that_of_the_root_and_turns_round_on_the_left(tmp_path: Path) -> None:
-    text = TOP.replace(
-        "initial:",
-        "  way: {use: sensor/spatial_orientation, sides: [l, r], frame: top.center}\ninitial:\n  root.yaw: 3 rad",
-    )
+def test_orientation_is_that_of_the_segment_and_turns_round_on_the_left(tmp_path: Path) -> None:
+    sensor = "  way: {use: sensor/spatial_orientation, sides: [l, r], frame: top.center}\n"
+    text = TOP.replace("initial:", f"{sensor}initial:\n  root.yaw: 3 rad")
     found = played(text, tmp_path, **EXACT)
-    for angle in ("yaw", "roll", "pitch"):
-        assert found[f"way_r.{angle}"] == pytest.approx(found[f"root.{angle}"], abs=1e-12)
-        sign = 1 if angle == "pitch" else -1
-        assert found[f"way_l.{angle}"] == pytest.approx(sign * found[f"root.{angle}"], abs=1e-12)
-        assert found[f"way_l.{angle}_velocity"] == pytest.approx(sign * found[f"way_r.{angle}_velocity"], abs=1e-12)
-    assert np.ptp(found["root.yaw"]) > 2 * math.pi  # whole turns and more
-    for k in (0, 700):
-        yaw, roll, pitch = (found[f"root.{angle}_velocity"][k] for angle in ("yaw", "roll", "pitch"))
-        after_yaw, after_roll = (
-            turned(found["root.yaw"][k], 0, 0),
-            turned(found["root.yaw"][k], found["root.roll"][k], 0),
-        )
-        ideal = np.array([0, 0, yaw]) + after_yaw.apply([roll, 0, 0]) + after_roll.apply([0, pitch, 0])
-        real = [found[f"way_r.{angle}_velocity"][k] for angle in ("roll", "pitch", "yaw")]
+    assert np.ptp(found["way_r.yaw"]) > 2 * math.pi  # whole turns and more
+    for k in (0, 700, 1500):
+        posture = turned(*(found[f"root.{name}"][k] for name in ("yaw", "roll", "pitch")))
+        named = Rotation.from_euler("ZYX", [found[f"way_r.{name}"][k] for name in ("yaw", "pitch", "roll")])
+        assert (named.inv() * posture).magnitude() < 1e-12
+        rates = (found[f"root.{name}_velocity"][k] for name in ("yaw", "roll", "pitch"))
+        axes = ([0, 0, 1], turned(found["root.yaw"][k], 0, 0).apply([1, 0, 0]), posture.apply([0, 1, 0]))
+        ideal = posture.inv().apply(sum(rate * np.array(axis) for rate, axis in zip(rates, axes, strict=True)))
+        real = [found[f"way_r.{name}_velocity"][k] for name in ("roll", "pitch", "yaw")]
         assert real == pytest.approx(ideal, abs=1e-9)
+    for name, sign in (("yaw", -1), ("roll", -1), ("pitch", 1)):
+        assert found[f"way_l.{name}"] == pytest.approx(sign * found[f"way_r.{name}"], abs=1e-12)
+        assert found[f"way_l.{name}_velocity"] == pytest.approx(sign * found[f"way_r.{name}_velocity"], abs=1e-12)
