@@ -11,10 +11,11 @@ from numpy.typing import NDArray
 
 from gaitsim.animation.posture import Floats, Posture
 
+VIEWS = {"side": (90.0, -6.0), "behind": (0.0, -8.0), "oblique": (50.0, -12.0)}  # degrees: azimuth and elevation
 FIELD = 20.0  # degrees of view from top to bottom: narrow, so that lengths are nearly to scale
-_ELEVATION = -6.0  # degrees
 _SMOOTHING = 0.5  # s, standard deviation: several hops or steps become a line
 _STILL = 1.6
+_PLANAR = 1e-6  # m
 _ABOVE, _BELOW, _BESIDE = 0.14, 0.06, 0.05  # of the picture, kept free; there are words above
 _ROOM = 0.3  # of the body's height: the longest force arrow
 
@@ -23,12 +24,18 @@ _ROOM = 0.3  # of the body's height: the longest force arrow
 class Views:
     """The point that is looked at for each frame (frames x 3, m), and how far away the camera stands (m).
 
-    newtons: what an arrow of one metre stands for.
+    newtons: what an arrow of one metre stands for. view: a name of `VIEWS`.
     """
 
     points: Floats
     distance: float
     newtons: float
+    view: str = "side"
+
+    @property
+    def away(self) -> Floats:
+        """The way from the camera along the ground."""
+        return _axes(self.view)[1]
 
     @property
     def half_height(self) -> float:
@@ -40,26 +47,34 @@ class Views:
         return height / (2 * self.half_height)
 
     def camera(self, frame: int) -> mujoco.MjvCamera:
-        """From the right side, so that forwards is to the right."""
+        """From the right side, so that forwards is to the right; or from behind, or between the two."""
         camera = mujoco.MjvCamera()
-        camera.azimuth, camera.elevation, camera.distance = 90.0, _ELEVATION, self.distance
+        camera.azimuth, camera.elevation = VIEWS[self.view]
+        camera.distance = self.distance
         camera.lookat[:] = self.points[frame]
         return camera
 
 
 def follow(
-    posture: Posture, rows: NDArray[np.int64], spacing: float, aspect: float, words: tuple[float, float] = (0, 0)
+    posture: Posture,
+    rows: NDArray[np.int64],
+    spacing: float,
+    aspect: float,
+    words: tuple[float, float] = (0, 0),
+    view: str = "side",
 ) -> Views:
     """Views of the given instants, `spacing` seconds apart, for a picture `aspect` times as wide as high.
 
     words: the parts of its height that are written on, above and below; the body stays between them.
     """
+    right, away = _axes(view)
     above, below = max(_ABOVE, words[0]), max(_BELOW, words[1])
     centers, lows, highs = np.zeros((len(rows), 3)), np.zeros((len(rows), 3)), np.zeros((len(rows), 3))
     for k, row in enumerate(rows):
         posture.take(int(row))
         centers[k] = posture.center_of_mass
         lows[k], highs[k] = posture.extent
+    centers, lows, highs = _turned(centers, lows, highs, right, away)
     newtons = _scale(posture, rows, float(np.max(highs[:, 2] - lows[:, 2])))
     if posture.stage.forces:
         lows[:, 2] = np.minimum(lows[:, 2], 0)
@@ -69,10 +84,29 @@ def follow(
         # A picture that stands still is better, as long as the body stays about as large in it.
         if still_half[axis] < _STILL * half[axis]:
             points[:, axis], half[axis] = still[:, axis], still_half[axis]
-    points[:, 1] = 0
+    # Planar motion stays in its plane.
+    points[:, 1] = _smooth(centers, spacing)[:, 1] if np.ptp(centers[:, 1]) > _PLANAR else 0
     high = max(half[2] / (1 - above - below), half[0] / aspect / (1 - 2 * _BESIDE), 0.05)
     points[:, 2] += (above - below) * high
-    return Views(points, high / math.tan(math.radians(FIELD / 2)), newtons)
+    world = points[:, :1] * right + points[:, 1:2] * away + points[:, 2:] * np.array([0.0, 0.0, 1.0])
+    return Views(world, high / math.tan(math.radians(FIELD / 2)), newtons, view)
+
+
+def _axes(view: str) -> tuple[Floats, Floats]:
+    """What is to the right in a picture, and what is away from the camera, along the ground."""
+    azimuth = math.radians(VIEWS[view][0])
+    sine, cosine = round(math.sin(azimuth), 12), round(math.cos(azimuth), 12)
+    return np.array([sine, -cosine, 0.0]), np.array([cosine, sine, 0.0])
+
+
+def _turned(centers: Floats, lows: Floats, highs: Floats, right: Floats, away: Floats) -> tuple[Floats, Floats, Floats]:
+    """Centers and corners of boxes along the axes of a picture: to the right, away, up."""
+    found = [centers.copy(), lows.copy(), highs.copy()]
+    for i, axis in enumerate((right, away)):
+        found[0][:, i] = centers @ axis
+        found[1][:, i] = np.minimum(lows * axis, highs * axis).sum(axis=1)
+        found[2][:, i] = np.maximum(lows * axis, highs * axis).sum(axis=1)
+    return found[0], found[1], found[2]
 
 
 def _centered(path: Floats, lows: Floats, highs: Floats) -> tuple[Floats, Floats]:
@@ -86,7 +120,7 @@ def _scale(posture: Posture, rows: NDArray[np.int64], height: float) -> float:
     columns = [
         posture.trajectory.signals.index(signal)
         for force in posture.stage.forces
-        for signal in (force.up, force.forward)
+        for signal in (force.up, force.forward, force.left)
         if signal is not None
     ]
     shown = posture.trajectory.values[rows][:, columns]

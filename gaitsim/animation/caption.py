@@ -19,6 +19,7 @@ class Caption:
     """The words on pictures of one size, in pixels.
 
     newtons: what an arrow of a metre stands for; None without arrows. metre: its length in pixels.
+    ending: how the run was stopped, from a time in s on; empty if it was not.
     """
 
     name: str
@@ -28,6 +29,7 @@ class Caption:
     muscles: bool
     newtons: float | None
     metre: float
+    ending: tuple[str, float] = ("", 0.0)
 
     @property
     def font(self) -> int:
@@ -43,6 +45,9 @@ class Caption:
             Words(f"t = {time:.3f} s", edge, edge + 1.5 * font, font, "la"),
             Words(speed_words(self.speed), edge, edge + 3.0 * font, font, "la"),
         ]
+        said, begin = self.ending
+        if said and time >= begin:
+            words.append(Words(said, self.width - edge, edge, font, "ra", bold=True))
         row = self.height - edge - 0.5 * font
         if self.newtons is not None:
             words.append(self._arrow(picture, row, self.newtons))

@@ -35,7 +35,7 @@ def add(scene: Any, posture: Posture, views: Views) -> None:
         if np.linalg.norm(along) > _LEAST:
             place = posture.place(force.spot)
             # In front of the limb, or the limb would hide it.
-            place = place + np.array([0.0, -0.12, 0.0])
+            place = place - 0.12 * views.away
             _connect(scene, mujoco.mjtGeom.mjGEOM_ARROW, width, place, place + _HALVED * along, colours.FORCE)
 
 

@@ -55,8 +55,9 @@ class Posture:
 
     def force(self, force: Force) -> Floats:
         """A force in N, in the world."""
-        forward, up = (np.array(axis) for axis in force.axes)
-        return np.asarray(self.signal(force.forward) * forward + self.signal(force.up) * up)
+        forward, left, up = (np.array(axis) for axis in force.axes)
+        found = self.signal(force.forward) * forward + self.signal(force.up) * up
+        return np.asarray(found + self.signal(force.left) * left)
 
     @property
     def center_of_mass(self) -> Floats:

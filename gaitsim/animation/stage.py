@@ -49,16 +49,17 @@ class Line:
 
 @dataclass(frozen=True)
 class Force:
-    """A force on a spot: its signals in N forwards and upwards, and the part that it belongs to.
+    """A force on a spot: its signals in N forwards, upwards and to the left, and the part that it belongs to.
 
-    axes: what is forwards and what is upwards there, in the world.
+    axes: what is forwards, what is to the left and what is upwards there, in the world.
     """
 
     part: str
     spot: Spot
     forward: str | None
     up: str | None
-    axes: tuple[tuple[float, ...], tuple[float, ...]]
+    left: str | None
+    axes: tuple[tuple[float, ...], ...]
 
 
 @dataclass(frozen=True)
@@ -75,8 +76,8 @@ class Stage:
     forces: tuple[Force, ...]
 
 
-def stage_of(model: Model) -> Stage:
-    """The stage of a model at the values that it starts with.
+def stage_of(model: Model, wide: bool = False) -> Stage:
+    """The stage of a model at the values that it starts with; `wide`: with ground on both sides of the way.
 
     Errors: CannotAnimate if a joint's coordinate is in no output; InvalidSpec, SimulationFailed.
     """
@@ -86,7 +87,7 @@ def stage_of(model: Model) -> Stage:
     _paint_bodies(model, spec)
     muscles = _muscles(model, assembly)
     _paint_tendons(spec, {name for name, _ in muscles})
-    _furnish(spec, ground=bool(forces))
+    _furnish(spec, ground=bool(forces), wide=wide)
     mechanics = spec.compile()
     return Stage(
         mechanics,
@@ -151,17 +152,18 @@ def _drawings(model: Model, assembly: Assembly) -> tuple[list[Line], list[Force]
             case DrawnForce():
                 spot = _spot(drawing.place, assembly)
                 axes = _axes(assembly, drawing.surface)
-                forces.append(Force(part, spot, signal(drawing.forward), signal(drawing.up), axes))
+                ways = (signal(drawing.forward), signal(drawing.up), signal(drawing.left))
+                forces.append(Force(part, spot, *ways, axes))
     return lines, forces
 
 
-def _axes(assembly: Assembly, surface: str) -> tuple[tuple[float, ...], tuple[float, ...]]:
-    """Forwards and upwards on a surface of the world."""
+def _axes(assembly: Assembly, surface: str) -> tuple[tuple[float, ...], ...]:
+    """Forwards, to the left and upwards on a surface of the world."""
     turn = np.eye(3).ravel()
     if surface:
         mujoco.mju_quat2Mat(turn, assembly.model.site(surface).quat)
     columns = turn.reshape(3, 3).T
-    return tuple(columns[0]), tuple(columns[2])
+    return tuple(tuple(column) for column in columns)
 
 
 def _spot(
@@ -197,7 +199,7 @@ def _paint_tendons(spec: Any, muscles: set[str]) -> None:
         tendon.rgba = (0, 0, 0, 1 if tendon.name in muscles else 0)
 
 
-def _furnish(spec: Any, ground: bool) -> None:
+def _furnish(spec: Any, ground: bool, wide: bool) -> None:
     """Light, a plain background and, where something touches it, the ground as a track of tiles."""
     # Near and far ends of what is seen, in m; MuJoCo counts them in sizes of the model, steps and all.
     spec.stat.extent, spec.visual.map.znear, spec.visual.map.zfar = 1.0, 0.05, 200.0
@@ -227,7 +229,7 @@ def _furnish(spec: Any, ground: bool) -> None:
     grounds = [geom for geom in spec.geoms if geom.name.startswith(GROUND)]
     if not grounds:
         grounds = [spec.worldbody.add_geom(name=GROUND, type=mujoco.mjtGeom.mjGEOM_PLANE, contype=0, conaffinity=0)]
-    near, far = _TRACK
+    near, far = _TRACK if not wide else (_TRACK[0], -_TRACK[0])
     for geom in grounds:
         length = 0 if geom.type == mujoco.mjtGeom.mjGEOM_PLANE else geom.size[0]  # 0 is without end
         geom.size = (length, (far - near) / 2, max(0.1, geom.size[2]))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.animation import colours, scopes
-from gaitsim.animation.camera import Views, follow
+from gaitsim.animation.camera import VIEWS, Views, follow
 from gaitsim.animation.canvas import Canvas
 from gaitsim.animation.caption import Caption, room_for
 from gaitsim.animation.encoder import Encoder
@@ -37,7 +37,7 @@ class VideoOptions:
 
     speed: seconds of motion in a second of video. rate: frames in a second; a GIF's is rounded to
     what GIFs can have. size: width and height in pixels, made even. scopes: addresses or patterns of
-    signals; none for the usual ones. begin, end: times of the motion, in s.
+    signals; none for the usual ones. begin, end: times of the motion, in s. view: from where, a name of `VIEWS`.
     """
 
     speed: float = 1.0
@@ -46,6 +46,7 @@ class VideoOptions:
     scopes: Sequence[str] = ()
     begin: float | None = None
     end: float | None = None
+    view: str = "side"
 
 
 def record(replay: Replay, path: Path, options: VideoOptions | None = None, progress: Progress | None = None) -> Path:
@@ -74,7 +75,7 @@ class _Film:
         self.size = _size(options, self.is_gif)
         _check(path, options, self.rate, self.size)
         times = _times(replay, options, self.rate)
-        stage = stage_of(replay.model)
+        stage = stage_of(replay.model, wide=options.view != "side")
         self.posture = Posture(stage, replay.trajectory)
         self.rows = rows_at(replay.trajectory, times)
         self.beside = self.size[0] >= self.size[1]
@@ -85,10 +86,13 @@ class _Film:
         _check_room(len(signals), room)
         self.panel = Panel(replay.trajectory, signals, *rest, float(times[0]), float(times[-1]))
         words = room_for(width, height, bool(stage.forces) + bool(stage.muscles))
-        self.views: Views = follow(self.posture, self.rows, options.speed / self.rate, width / height, words)
+        self.views: Views = follow(
+            self.posture, self.rows, options.speed / self.rate, width / height, words, options.view
+        )
         newtons = self.views.newtons if stage.forces else None
         metre = self.views.pixels_of_a_metre(height)
-        self.caption = Caption(replay.name, options.speed, width, height, bool(stage.muscles), newtons, metre)
+        ending = _ending(replay, options.speed)
+        self.caption = Caption(replay.name, options.speed, width, height, bool(stage.muscles), newtons, metre, ending)
         self.canvas = Canvas(self.posture, width, height)
 
     @property
@@ -109,6 +113,13 @@ class _Film:
         chosen = sorted({round(k) for k in np.linspace(0, len(self.rows) - 1, _SAMPLES)})
         swatch = np.tile(colours.scale(self.size[0]), (_SWATCH, 1, 1))
         return np.concatenate([*(self.frame(canvas, k) for k in chosen), swatch])
+
+
+def _ending(replay: Replay, speed: float) -> tuple[str, float]:
+    """What the last second of the video says of a run that a measure stopped, and from when on."""
+    if not (replay.outcome.level and replay.reaches_end):
+        return "", 0.0
+    return replay.outcome.level.replace("_", " "), float(replay.times[-1]) - speed
 
 
 def read_size(text: str) -> tuple[int, int]:
@@ -135,6 +146,8 @@ def _check(path: Path, options: VideoOptions, rate: float, size: tuple[int, int]
         raise Usage(f"{path}: a video ends in {' or '.join(ENDINGS)}.")
     if not options.speed > 0:
         raise Usage(f"--speed {options.speed:g}: seconds of motion in a second of video, above 0, such as 0.25.")
+    if options.view not in VIEWS:
+        raise Usage(f"--view {options.view}: one of {', '.join(VIEWS)}.")
     if not 1 <= rate <= 240:
         raise Usage(f"--fps {rate:g}: frames in a second, from 1 to 240.")
     if min(size) < 200 or max(size) > 4096:

@@ -76,6 +76,9 @@ def analyze(
     size: Annotated[
         str | None, typer.Option(metavar="WxH", help="Size of the video in pixels, such as 1280x720.")
     ] = None,
+    view: Annotated[
+        str, typer.Option(metavar="FROM", help="Where the video is seen from: side, behind or oblique.")
+    ] = "side",
     scopes: Annotated[
         list[str] | None, typer.Option(metavar="PATTERN", help="Signals to show beside the video; repeatable.")
     ] = None,
@@ -118,6 +121,7 @@ def analyze(
         speed=speed,
         fps=fps,
         size=size,
+        view=view,
         scopes=tuple(scopes or ()),
         formats=tuple(f.value for f in formats or [Format.png]),
         only=only,

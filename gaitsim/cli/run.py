@@ -127,7 +127,7 @@ def _say_endings(runs: Runs) -> None:
         if outcome.status == "failed":
             console.say(f"{which}failed: {outcome.reason}")
         elif outcome.status == "stopped" and runs.draws:
-            console.say(f"{which}stopped by {outcome.reason} at {outcome.simulated_seconds:.4g} s")
+            console.say(f"{which}stopped by {outcome.ending} at {outcome.simulated_seconds:.4g} s")
 
 
 def _overall(outcomes: Sequence[Outcome]) -> str:
@@ -155,7 +155,7 @@ def _print_one(outcome: Outcome, model: Model) -> None:
         rows.append(("score (a cost)", console.shown(outcome.score), ""))
     console.give_table(["metric", "value", "unit"], rows)
     seconds, wall = outcome.simulated_seconds, outcome.wall_seconds
-    by = f" by {outcome.reason}" if outcome.status == "stopped" else ""
+    by = f" by {outcome.ending}" if outcome.status == "stopped" else ""
     console.give(
         f"{outcome.status}{by}: {seconds:g} s in {outcome.steps} steps, "
         f"{wall:.3g} s of wall time, {seconds / wall:.3g} x real time"

@@ -26,7 +26,10 @@ class Trajectory:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The result of one simulation. Status: completed, stopped (by a measure) or failed."""
+    """The result of one simulation. Status: completed, stopped (by a measure) or failed.
+
+    level: what the measure that stopped it says of the end, if it has a state with named levels: fell_to_the_right.
+    """
 
     status: str
     reason: str
@@ -36,6 +39,12 @@ class Outcome:
     score: float | None
     wall_seconds: float
     trajectory: Trajectory | None = field(default=None, repr=False)
+    level: str = ""
+
+    @property
+    def ending(self) -> str:
+        """Who stopped it, and what that says of it, in words: fall_time, fell to the right."""
+        return f"{self.reason}, {self.level.replace('_', ' ')}" if self.level else self.reason
 
     @property
     def simulated_seconds(self) -> float:

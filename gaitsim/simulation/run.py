@@ -83,14 +83,15 @@ class Simulator:
         if not ending.failure:
             ending = replace(ending, failure=self._loop.physics.runaway(ending.steps))
         metrics, score, failure = self._judged(ending, values)
-        status, reason = "completed", ""
+        status, reason, level = "completed", "", ""
         if failure:
             status, reason = "failed", failure
         elif ending.stopped_by is not None:
             status, reason = "stopped", self.model.parts[ending.stopped_by].address
+            level = self._level(ending.stopped_by, ending)
         trajectory = self._trajectory(ending.record) if ending.record is not None else None
         wall = time.perf_counter() - began
-        return Outcome(status, reason, ending.steps, simulate.step, metrics, score, wall, trajectory)
+        return Outcome(status, reason, ending.steps, simulate.step, metrics, score, wall, trajectory, level)
 
     def first_instant(self) -> dict[str, float]:
         """Every recorded signal at the start of the model's own numbers, in SI; empty if it fails at once."""
@@ -122,6 +123,13 @@ class Simulator:
             _called(part, "finish", p, x, m)
             found |= {name: float(getattr(m, own)) for own, name in metric_names(part).items()}
         return found
+
+    def _level(self, index: int, ending: LoopResult) -> str:
+        """What the first state with named levels of a part is at the end; empty without one."""
+        for name, state in self.model.parts[index].type.states.items():
+            if state.levels:
+                return state.levels[int(ending.x[self.program.states.place(index, name)])]
+        return ""
 
     def _in_units(self, metrics: dict[str, float]) -> dict[str, float]:
         """Metrics in their declared units: inside, all numbers are in SI."""

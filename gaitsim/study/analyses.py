@@ -29,7 +29,7 @@ class Wanted:
     plot: patterns of signals, or muscles. against: a signal that they are drawn against, instead of time.
     return_map: signals whose maxima are drawn over the maxima before. export: formats of all signals, such as sto.
     every: of exports, one instant in such a time as '10 ms'. from_time, to_time: what is looked at, such as '2 s'.
-    video: None makes one unless `only`. gif, speed, fps, size, scopes: of the video; size as '1280x720'.
+    video: None makes one unless `only`. gif, speed, fps, size, scopes, view: of the video; size as '1280x720'.
     formats: of figures. only: no default figures, video or report. folder: where all goes; None for inside the result.
     """
 
@@ -46,6 +46,7 @@ class Wanted:
     fps: float | None = None
     size: str | None = None
     scopes: tuple[str, ...] = ()
+    view: str = "side"
     formats: tuple[str, ...] = ("png",)
     only: bool = False
     folder: Path | None = None
@@ -213,4 +214,4 @@ def _video_options(wanted: Wanted) -> VideoOptions:
     from gaitsim.animation.video import VideoOptions, read_size
 
     size = read_size(wanted.size) if wanted.size else None
-    return VideoOptions(wanted.speed, wanted.fps, size, wanted.scopes)
+    return VideoOptions(wanted.speed, wanted.fps, size, wanted.scopes, view=wanted.view)

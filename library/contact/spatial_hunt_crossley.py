@@ -125,4 +125,4 @@ class SpatialHuntCrossley(Component):
         mj.apply("spring", normal, "ctrl")
         mj.apply("drag", brake, "ctrl")
         mj.apply("drag", side, "ctrl")
-        mj.draw_force(center, up="force", forward="friction_force", surface="terrain")
+        mj.draw_force(center, up="force", forward="friction_force", left="side_force", surface="terrain")

@@ -9,10 +9,10 @@ def continued(angle, before):
 
 
 class SpatialOrientation(Component):
-    """How a segment is turned in the world: to the left by a yaw, then forwards by a pitch, then to its right by a roll.
+    """How a segment is turned in the world: to the left by a yaw, then forwards by a pitch, then rightwards by a roll.
 
     Each turn is about the axes that it finds, as heading, pitch and bank are counted. Yaw and roll go on through whole
-    turns. Rates are the angular velocities about the segment's own axes, as a gyroscope feels them. Of a part of the left
+    turns. Rates are angular velocities about the segment's own axes, as a gyroscope feels them. Of a part of the left
     side (`sides: [l, r]`), yaw and roll turn round, so that both sides feel the same in mirrored postures.
     """
 

@@ -60,3 +60,21 @@ def test_a_small_picture_keeps_its_words_off_the_body() -> None:
     assert below > 0.15
     assert min(lowest, 0) - bottom > 0.95 * below * (top - bottom)
     assert top - highest > 0.95 * above * (top - bottom)
+
+
+@pytest.mark.parametrize("view", ["side", "behind", "oblique"])
+def test_a_body_that_moves_in_space_stays_in_the_picture_from_wherever_it_is_seen(view: str) -> None:
+    replay = run_of("walking_scone_h1922", 0.15)
+    posture = Posture(stage_of(replay.model, wide=view != "side"), replay.trajectory)
+    rows = rows_at(replay.trajectory, np.arange(0, 0.15, 0.05))
+    views = follow(posture, rows, 0.05, 0.75, view=view)
+    azimuth = np.radians(views.camera(0).azimuth)
+    right = np.array([np.sin(azimuth), -np.cos(azimuth), 0])
+    assert views.camera(0).elevation < 0
+    for k, row in enumerate(rows):
+        posture.take(int(row))
+        low, high = posture.extent
+        corners = np.array([[x, y, z] for x in (low[0], high[0]) for y in (low[1], high[1]) for z in (low[2], high[2])])
+        aside = (corners - views.points[k]) @ right
+        assert np.max(np.abs(aside)) < 0.75 * views.half_height
+        assert np.max(np.abs(corners[:, 2] - views.points[k, 2])) < views.half_height

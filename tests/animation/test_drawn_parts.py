@@ -33,6 +33,7 @@ class Rail(Component):
         joint = mj.slide(axis=(1, 0, 0), suffix="along")
         mj.read("velocity", joint, "qvel")
 '''
+TOGETHER = {"joint/spatial_hinge": ", axis_left: 1"}  # of several numbers, one is needed
 ON_A_RAIL = """gaitsim: 1
 parts:
   block: {use: segment/point_mass, mass: 1 kg}
@@ -54,7 +55,7 @@ def required(reference: str) -> str:
         low, high = one.bounds or (0.0, 1.0)
         value = low + (high - low) * number / (len(bare) + 1)
         values.append(f", {name}: {value:g} {one.unit if one.unit != '1' else ''}")
-    return "".join(values)
+    return "".join(values) + TOGETHER.get(reference, "")
 
 
 def staged(parts: dict[str, str]) -> Stage:

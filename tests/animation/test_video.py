@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import subprocess
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +17,8 @@ from PIL import Image
 
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.animation import CannotAnimate
-from gaitsim.animation.video import VideoOptions, read_size, record
+from gaitsim.animation.caption import Caption
+from gaitsim.animation.video import VideoOptions, _ending, read_size, record
 from gaitsim.errors import GaitsimError, Usage
 from tests.analysis.replays import cut
 from tests.animation.runs import run_of
@@ -109,12 +111,13 @@ def test_a_run_without_an_instant_is_refused(hopper: Replay, tmp_path: Path) -> 
     [
         ("hop.avi", VideoOptions(), "hop.avi: a video ends in .mp4 or .gif."),
         ("hop.mp4", VideoOptions(speed=0), "--speed 0: seconds of motion in a second of video, above 0, such as 0.25."),
+        ("hop.mp4", VideoOptions(view="above"), "--view above: one of side, behind, oblique."),
         ("hop.mp4", VideoOptions(rate=0), "--fps 0: frames in a second, from 1 to 240."),
         ("hop.mp4", VideoOptions(size=(90, 900)), "--size 90x900: width x height in pixels, each from 200 to 4096."),
         ("hop.mp4", VideoOptions(begin=3), "there is no motion from 3 s to 0.9999 s; it goes from 0 s to 0.9999 s."),
         ("hop.mp4", VideoOptions(scopes=["*"], size=SIZE), " signals match, and this size has room for 8; narrow it."),
     ],
-    ids=["ending", "speed", "rate", "size", "stretch", "scopes"],
+    ids=["ending", "speed", "view", "rate", "size", "stretch", "scopes"],
 )
 def test_what_cannot_be_made_is_said(
     hopper: Replay, tmp_path: Path, name: str, options: VideoOptions, words: str
@@ -161,3 +164,15 @@ def test_a_size_is_two_numbers() -> None:
     for text in ("1280", "x", "12.5x3", "axb"):
         with pytest.raises(Usage, match=f"--size {text}: width x height in pixels, such as 1280x720."):
             read_size(text)
+
+
+def test_the_end_of_a_film_says_how_the_walker_fell() -> None:
+    replay = run_of("walking_scone_h1922")
+    assert _ending(replay, 0.1) == ("fell down", pytest.approx(replay.times[-1] - 0.1))
+    assert _ending(replay.between(0, 0.1), 0.1) == ("", 0)
+    plain = Caption("walker", 1.0, 400, 300, False, None, 100.0)
+    picture = np.zeros((300, 400, 3), dtype=np.uint8)
+    with_words = replace(plain, ending=("fell to the right", 2.0))
+    assert np.array_equal(with_words.put_on(picture, 1.9), plain.put_on(picture, 1.9))
+    changed = np.flatnonzero((with_words.put_on(picture, 2.0) != plain.put_on(picture, 2.0)).any(axis=(0, 2)))
+    assert changed.min() > 200 and changed.max() < 400  # at the right

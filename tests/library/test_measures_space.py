@@ -93,6 +93,7 @@ simulate: {duration: 5 s, step: 1 ms}
     outcome = Simulator(model_of(text, tmp_path)).run()
     assert outcome.metrics["fall.fell_sideways"] == 1
     assert 0.1 < outcome.metrics["fall"] < 1.5
+    assert outcome.ending == "fall, fell to the right"
 
 
 FEET = """

@@ -64,7 +64,7 @@ class Replay:
         outcome = self.outcome
         if outcome.status == "completed":
             return ""
-        stopped = f"stopped by {outcome.reason} after {outcome.simulated_seconds:g} s"
+        stopped = f"stopped by {outcome.ending} after {outcome.simulated_seconds:g} s"
         return stopped if outcome.status == "stopped" else f"failed: {outcome.reason}"
 
     @property

@@ -37,12 +37,19 @@ class Drawings(Making):
         """For `draw_line`: a place moved in the world by outputs in m, such as up=("length", -0.5)."""
         return Moved(place, forward, up)
 
-    def draw_force(self, place: Point, up: str | None = None, forward: str | None = None, surface: str = "") -> None:
+    def draw_force(
+        self,
+        place: Point,
+        up: str | None = None,
+        forward: str | None = None,
+        surface: str = "",
+        left: str | None = None,
+    ) -> None:
         """An arrow to look at: the force on a place, from outputs in N along axes as `push` has them."""
-        for port in (port for port in (up, forward) if port is not None):
+        for port in (port for port in (up, forward, left) if port is not None):
             self._check_output("draw_force", port)
         site = self._name(f"{surface}.surface") if surface else ""
-        self.made.drawings.append((self.index, DrawnForce(place, forward, up, site)))
+        self.made.drawings.append((self.index, DrawnForce(place, forward, up, site, left)))
 
     def _check_output(self, call: str, port: str) -> None:
         outputs = self.part.type.outputs

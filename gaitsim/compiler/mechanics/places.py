@@ -58,7 +58,7 @@ class DrawnLine:
 
 @dataclass(frozen=True)
 class DrawnForce:
-    """An arrow to look at: the force on a place, given by outputs in N, forwards and upwards.
+    """An arrow to look at: the force on a place, given by outputs in N, forwards, upwards and to the left.
 
     surface: the site whose axes these are; empty for those of the world.
     """
@@ -67,6 +67,7 @@ class DrawnForce:
     forward: str | None
     up: str | None
     surface: str = ""
+    left: str | None = None
 
 
 @dataclass

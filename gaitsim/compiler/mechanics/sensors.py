@@ -31,7 +31,11 @@ class Sensors(Making):
     def axes_of(self, place: Point) -> tuple[Element, Element, Element, Element]:
         """Sensors of a place's own x, y and z axes in the world, and of its angular velocity about them in rad/s."""
         site = self._site("axes", place)
-        kinds = mujoco.mjtSensor.mjSENS_FRAMEXAXIS, mujoco.mjtSensor.mjSENS_FRAMEYAXIS, mujoco.mjtSensor.mjSENS_FRAMEZAXIS
+        kinds = (
+            mujoco.mjtSensor.mjSENS_FRAMEXAXIS,
+            mujoco.mjtSensor.mjSENS_FRAMEYAXIS,
+            mujoco.mjtSensor.mjSENS_FRAMEZAXIS,
+        )
         x, y, z = (self._sensor(f"{name}_axis", kind, site) for name, kind in zip("xyz", kinds, strict=True))
         return x, y, z, self._sensor("gyroscope", mujoco.mjtSensor.mjSENS_GYRO, site)
 
