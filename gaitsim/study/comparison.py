@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -71,7 +71,7 @@ def compared(
     """
     from gaitsim.study.analyses import writable
 
-    pair = (first, second)
+    pair = [replace(each, candidate="best") if each.names_result else each for each in (first, second)]
     labels = _labels(first.path, second.path)
     sources = [opening.source() for opening in pair]
     changes = _changes(sources)

@@ -13,14 +13,16 @@ from datetime import date
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from gaitsim.cluster.episodes import episode_models
 from gaitsim.components.find import is_component, shipped_folder, shipped_specs
 from gaitsim.components.load import as_lines
 from gaitsim.components.places import LAB, PROJECT, lab_of
 from gaitsim.errors import InvalidSpec, Usage, did_you_mean
 from gaitsim.results.bundle import COMPONENTS, SPEC, Bundle
-from gaitsim.results.manifest import is_result, result_named
+from gaitsim.results.manifest import is_result, read_result, result_named
 from gaitsim.results.provenance import author
 from gaitsim.results.tuned import tuned_path, tuned_text
+from gaitsim.spec.study import variants
 from gaitsim.study.new_files import write_new
 from gaitsim.study.opening import Opening
 from gaitsim.study.template import feedback_of
@@ -136,7 +138,7 @@ def new_project(name: str, origin: str, place: Path, results: Path | None = None
     opening = _opening(origin, results, trusted)
     source = opening.source()
     model = source.model()
-    bundle = source.bundle([model])
+    bundle = _bundle(opening, source)
     called = source.name if source.name.lower() != name.lower() else f"{source.name}_origin"
     copied = _lacking(bundle, [lab / "library", shipped_folder()])
     project = Project(folder, name, author(), date.today().isoformat(), _where(opening, source, origin))
@@ -194,6 +196,14 @@ def _where(opening: Opening, source: Source, origin: str) -> str:
     if source.manifest:
         return f"{opening.path.name}"
     return origin
+
+
+def _bundle(opening: Opening, source: Source) -> Bundle:
+    """All that a result or a spec is made of, with every run of its study and every episode of its search."""
+    if opening.names_result:
+        return read_result(opening.path)[1]
+    runs = [source.model(row.document) for row in variants(source.document, [])]
+    return source.bundle([*runs, *episode_models(source.document, source.library, source.name)])
 
 
 def _spec_text(opening: Opening, bundle: Bundle) -> str:

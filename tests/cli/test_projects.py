@@ -154,6 +154,22 @@ def test_a_project_copies_what_no_library_has(lab: Path, capsys: Capture, monkey
     assert copied == Path("projects/bob/hopping_leg_mass.yaml").read_text(encoding="utf-8")
 
 
+def test_a_project_has_the_whole_search_and_the_whole_study(lab: Path, capsys: Capture) -> None:
+    spec = lab / "hop.yaml"
+    text = shipped_specs()["hopping_geyer2003"].read_text(encoding="utf-8").partition("optimize:")[0]
+    text = text.replace("value: {from: apex_height}", "value: {from: upright}")  # a score without a hop
+    more = "optimize: {episodes: [{body.mass: 70 kg}, {body.mass: 80 kg}], population: 4, generations: 1}\n"
+    spec.write_text(f"{text}{more}study: [{{body.mass: 60 kg}}, {{body.mass: 90 kg}}]\n", encoding="utf-8")
+    begun(capsys, "alice", "--from", "hop.yaml")
+    assert Path("projects/alice/hop.yaml").read_text(encoding="utf-8") == spec.read_text(encoding="utf-8")
+    words = ("--mode", "normal", "--set", "simulate.duration=20 ms", "--set", "study=null", "--workers", "0", "--json")
+    found = json.loads(gaitsim(capsys, "optimize", "hop.yaml", *words).out)
+    begun(capsys, "bob", "--from", found["result"])
+    copied = Path("projects/bob/hop.yaml").read_text(encoding="utf-8")
+    assert copied == (Path(found["result"]) / "spec.yaml").read_text(encoding="utf-8")
+    assert "episodes" in copied
+
+
 def test_two_people_begin_at_once_and_their_work_merges(
     lab: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:

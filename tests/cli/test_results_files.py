@@ -126,6 +126,19 @@ def test_what_is_running_or_no_result_is_not_removed(capsys: Capture) -> None:
     assert Path("precious").is_dir()
 
 
+def test_how_far_off_a_result_is(capsys: Capture) -> None:
+    folder = ran(capsys)
+    path = folder / "evaluations.jsonl"
+    row = json.loads(path.read_text())
+    name = next(name for name, value in row["metrics"].items() if value)
+    row["metrics"][name] *= 1.001
+    path.write_text(json.dumps(row) + "\n")
+    said = gaitsim(capsys, "results", "verify", str(folder))
+    assert said.code == 4
+    assert said.out.startswith(f"run 0: {name}: ")
+    assert "numbers differ by up to 1.0e-03 of their value, with the versions and the processor that made" in said.err
+
+
 def test_a_result_remembers_the_repository_of_its_spec(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
     """Also where the command is given elsewhere."""
 
