@@ -89,7 +89,7 @@ def record(what: What = None, library: Libraries = None, json: Json = False) -> 
                 "model": made.archived.name,
                 "record": str(made.path),
                 "what": made.what,
-                "differs": [_difference(d) for d in made.differs],
+                "differs": [difference_data(d) for d in made.differs],
                 **(console.error_data(made.error) if made.error else {}),
             }
         )
@@ -130,7 +130,8 @@ def _said(value: float | str | None) -> str:
     return f"{value:.9g}" if isinstance(value, float) else value or "-"
 
 
-def _difference(one: Difference) -> dict[str, Any]:
+def difference_data(one: Difference) -> dict[str, Any]:
+    """What differs, as data."""
     return {**vars(one), "change": one.change}
 
 
@@ -139,7 +140,7 @@ def _data(verdict: Verdict) -> dict[str, Any]:
         "model": verdict.archived.name,
         "spec": str(verdict.archived.path),
         "holds": verdict.holds,
-        "differs": [_difference(d) for d in verdict.differs],
+        "differs": [difference_data(d) for d in verdict.differs],
         "changed": list(verdict.changed),
         **({"errors": console.error_data(verdict.error)["errors"]} if verdict.error else {}),
     }

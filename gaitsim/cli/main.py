@@ -18,6 +18,7 @@ from gaitsim.cli import (
     cite,
     console,
     library,
+    library_uses,
     limit,
     new,
     optimize,
@@ -51,6 +52,9 @@ app.command("cite")(cite.cite)
 app.command("new")(new.new)
 app.command("projects")(projects.projects)
 app.command("schema")(schema.schema)
+library.app.command("used-by")(library_uses.used_by)
+library.app.command("test")(library_uses.test)
+library.app.command("history")(library_uses.history)
 app.add_typer(library.app, name="library")
 app.add_typer(archive.app, name="archive")
 app.add_typer(results.app, name="results")

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gaitsim.components.checks.shared import Shared, imported_names
+from gaitsim.components.checks.shared import Shared, imported_names, whole
 from gaitsim.components.composite import ComponentFile, load_composite
 from gaitsim.components.contract import kind_faults
-from gaitsim.components.load import as_lines, load_primitive
+from gaitsim.components.load import as_lines, digest_of, load_primitive
 from gaitsim.components.places import lab_of, project_of, serves
 from gaitsim.components.table import Table, load_table
 from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean, nearest
@@ -89,6 +89,21 @@ class Library:
         """The file of a reference, loaded or not."""
         return next(iter(self._files(reference)), None)
 
+    def file(self, reference: str) -> Path | None:
+        """The file of a component or of a table, loaded or not."""
+        return next(iter(self._files(reference, (*_SUFFIXES, ".csv"))), None)
+
+    def version(self, reference: str) -> str | None:
+        """The digest of a component or a table, told from its text, which is not run; None if there is none.
+
+        Errors: InvalidSpec.
+        """
+        path = self.file(reference)
+        if path is None:
+            return None
+        text = as_lines(self._text(path, "component").removeprefix("\ufeff"))
+        return digest_of(whole(text, self.shared(path.parent.name, text) if path.suffix == ".py" else ()))
+
     def serves(self, reference: str) -> str:
         """Which library a loaded component comes from: shipped, lab, project, result, or a folder."""
         path = self.find(reference).path
@@ -160,11 +175,11 @@ class Library:
             return load_composite(reference, path, shown(path), text)
         return load_primitive(reference, path, shown(path), text, self.shared(path.parent.name, text))
 
-    def _files(self, reference: str) -> list[Path]:
+    def _files(self, reference: str, suffixes: Sequence[str] = _SUFFIXES) -> list[Path]:
         kind, _, name = reference.partition("/")
         if not (kind.isidentifier() and name.isidentifier()) or len(reference) > _LONGEST:
             return []
-        paths = [folder / kind / f"{name}{suffix}" for folder in self.folders for suffix in _SUFFIXES]
+        paths = [folder / kind / f"{name}{suffix}" for folder in self.folders for suffix in suffixes]
         return [path for path in paths if self._has(path)]
 
     def _has(self, path: Path) -> bool:

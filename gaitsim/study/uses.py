@@ -1,0 +1,118 @@
+"""Who uses a component: specs, by what they resolve to, and results, by the copies that they hold."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+from gaitsim.components.find import Library, shipped_specs, shown
+from gaitsim.components.places import lab_of
+from gaitsim.errors import GaitsimError, Usage
+from gaitsim.results.bundle import Bundle
+from gaitsim.results.manifest import read_result
+from gaitsim.study.archive import Archived, archived
+from gaitsim.study.listening import Listener
+from gaitsim.study.records import SHORT
+from gaitsim.text.document import parse
+from gaitsim.whole import PARTIAL
+
+
+@dataclass(frozen=True)
+class UsingSpec:
+    """A spec that uses a component, and the version that it gets."""
+
+    archived: Archived
+    version: str
+
+
+@dataclass(frozen=True)
+class UsingResult:
+    """A result that holds a copy of a component: its folder, when it was made, and the version of the copy."""
+
+    folder: Path
+    created: str
+    version: str
+    bundle: Bundle
+    kind: str
+    mode: str
+
+
+@dataclass(frozen=True)
+class Scope:
+    """Where users of components are looked for.
+
+    words: specs and folders of specs; none for the shipped ones, those right here, and those of the lab's projects.
+    results: folders of results. folders: of more components, before all others but those beside a spec.
+    """
+
+    words: tuple[str, ...]
+    results: tuple[Path, ...]
+    folders: tuple[Path, ...] = ()
+
+    def library(self) -> Library:
+        """The components that are meant by their names. Errors: Usage."""
+        from gaitsim.study.opening import open_library
+
+        return open_library(None, self.folders)
+
+    def version(self, reference: str) -> str:
+        """The present version of a component. Errors: Usage if there is none of this name."""
+        library = self.library()
+        found = library.version(reference)
+        if found is None:
+            raise Usage(library.unknown(reference))
+        return found
+
+    def specs(self) -> list[Archived]:
+        """Every spec that is looked at. Errors: Usage."""
+        if self.words:
+            return archived(self.words, self.folders)
+        lab, here = lab_of(Path.cwd()), Path()
+        folders = [here, *(sorted((lab / "projects").glob("*/")) if lab else [])]
+        own = [path for folder in folders for path in sorted(folder.glob("*.yaml")) if _is_spec(path)]
+        known = {path.resolve() for path in shipped_specs().values()}
+        mine = {path.resolve(): Archived(shown(path), path, self.folders) for path in own}
+        return [*archived((), self.folders), *(each for path, each in mine.items() if path not in known)]
+
+
+def using_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[UsingSpec]:
+    """The specs that use a component or a table; of one that does not resolve, the listener hears. Errors: Usage."""
+    specs = scope.specs()
+    hear = listener.progress("specs read")
+    for count, spec in enumerate(specs, start=1):
+        try:
+            version = spec.made_from().components.get(reference)
+        except GaitsimError as error:
+            listener.say_error(error)
+            version = None
+        hear(count, len(specs))
+        if version is not None:
+            yield UsingSpec(spec, version)
+
+
+def using_results(reference: str, scope: Scope, listener: Listener) -> Iterator[UsingResult]:
+    """The results that hold a copy of a component or a table, oldest first; of a damaged one the listener hears."""
+    found = []
+    for manifest_file in [path for root in scope.results for path in sorted(root.glob("*/manifest.json"))]:
+        folder = manifest_file.parent
+        if folder.suffix == PARTIAL:
+            continue
+        try:
+            manifest, bundle = read_result(folder)
+            version = bundle.library().version(reference)
+        except GaitsimError as error:
+            listener.say_error(error)
+            continue
+        if version is not None:
+            said = [str(manifest[key]) for key in ("kind", "mode")]
+            found.append(UsingResult(folder, str(manifest["created"]), version[:SHORT], bundle, *said))
+    yield from sorted(found, key=lambda each: (each.created, str(each.folder)))
+
+
+def _is_spec(path: Path) -> bool:
+    """Whether a file is meant as a spec: tuned values and other files in YAML are none."""
+    try:
+        return not path.stem.endswith(".tuned") and "gaitsim" in parse(path.read_text(encoding="utf-8"), "").entries
+    except (OSError, UnicodeError, GaitsimError):
+        return False
