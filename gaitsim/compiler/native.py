@@ -43,6 +43,7 @@ RUN = {
     "data": "shared",
     "qpos": "shared",
     "qvel": "shared",
+    "fastest": "number",
     "record": "pointer",
     "reached": "pointer",
 }

@@ -47,6 +47,7 @@ class Translation:
     def module(self) -> Any:
         """The whole module; kernels and what MuJoCo has are only declared."""
         self._finite()
+        self._bounded()
         self._kept()
         self._start()
         self._run()
@@ -103,6 +104,17 @@ class Translation:
             number = g.builder.extract_element(total, SHORT(lane))
             found = g.builder.and_(found, g.builder.fcmp_ordered("==", number, DOUBLE(0)))
         g.builder.ret(found)
+
+    def _bounded(self) -> None:
+        """Whether no number of a table is larger than another, of either sign; one that is not finite is."""
+        f = self._function("bounded", FLAG, {"table": "pointer", "count": "integer", "most": "number"})
+        b = f.builder
+        found = b.alloca(FLAG)
+        b.store(FLAG(1), found)
+        with f.times(f.count) as i:
+            size = b.call(self._external("llvm.fabs.f64", DOUBLE, [DOUBLE]), [f.load(f.table, i)])
+            b.store(b.and_(b.load(found, typ=FLAG), b.fcmp_ordered("<=", size, f.most)), found)
+        b.ret(b.load(found, typ=FLAG))
 
     def _is_finite(self, f: Writer, table: Any, size: int) -> Any:
         return f.builder.call(self.names["finite"], [table, INTEGER(size)], attrs=("noinline",))
@@ -300,9 +312,10 @@ class Translation:
         self._end_unless(f, self._table_is_finite(f, f.states, plan.states), SUSPECT)
         with self._timed(f, "second half"):
             self._advance(f)
-        tables = zip((f.qpos, f.qvel), plan.coordinates, strict=True)
-        finite = [self._is_finite(f, table, size) for table, size in tables]
-        self._end_unless(f, b.and_(*finite), DIVERGED)
+        positions, velocities = plan.coordinates
+        finite = self._is_finite(f, f.qpos, positions)
+        followed = b.call(self.names["bounded"], [f.qvel, INTEGER(velocities), f.fastest], attrs=("noinline",))
+        self._end_unless(f, b.and_(finite, followed), DIVERGED)
 
     def _carried_on(self, f: Writer, number: int, value: Any) -> Any:
         """A value that is written, carried on to the middle of the step; before the first step it was the same."""

@@ -9,7 +9,8 @@ import numpy as np
 from gaitsim.compiler.program import Floats, Program
 from gaitsim.model import Part
 from gaitsim.simulation.view import View, views
-from gaitsim.units import parse_unit
+
+_NEXT = "try a shorter step"
 
 
 def of_exception(program: Program, part: int, stage: str, step: int, error: Exception) -> str:
@@ -71,7 +72,7 @@ def _origin(program: Program, slots: list[int], u: Floats, y: Floats) -> int | N
 def of_mechanics(program: Program, wrong: list[str], step: int) -> str:
     """Joint coordinates that are no longer finite."""
     said = f" in {', '.join(wrong)}" if wrong else ""
-    return f"the mechanics diverged{said} at {_when(program, step)}; try a shorter step"
+    return f"the mechanics diverged{said} at {_when(program, step)}; {_NEXT}"
 
 
 def of_nothing_found(program: Program, step: int) -> str:
@@ -80,13 +81,13 @@ def of_nothing_found(program: Program, step: int) -> str:
     return f"{said}; run it with --mode normal"
 
 
-def of_runaway(program: Program, address: str, moved: float, step: int) -> str:
-    """A joint's coordinate that is finite, and moved as nothing does that is simulated: by how much, in each step."""
-    part, name = program.port(address)
-    unit = parse_unit(program.model.parts[part].type.outputs[name].unit).dimension.si.partition("/")[0]
-    rule = f"the mechanics diverged: {program.model.parts[part].address} moves by {moved:.2g} {unit}"
-    when = f"in each step of {1e3 * program.model.simulate.step:g} ms before {_when(program, step)}"
-    return f"{rule} {when}; try a shorter step, or less stiffness and damping"
+def of_runaway(program: Program, joint: str, speed: float, unit: str, step: int) -> str:
+    """A joint that is finite, and faster than what is simulated can be."""
+    dt = program.model.simulate.step
+    rule = f"the mechanics diverged: {joint} moves at {speed:.3g} {unit}/s at {_when(program, step)}"
+    return (
+        f"{rule}, which is {speed * dt:.2g} {unit} in a step of {1e3 * dt:g} ms; {_NEXT}, or less stiffness and damping"
+    )
 
 
 def _who(program: Program, part: int) -> str:

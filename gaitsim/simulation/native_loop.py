@@ -126,7 +126,11 @@ class NativeLoop:
         given = {word: array.ctypes.data_as(ctypes.c_void_p) for word, array in held.items()}
         given["record"] = None if record is None else record.ctypes.data_as(ctypes.c_void_p)
         numbers = {"mask": len(tables.past) - 1, "count": len(tables.places), "first": 0, "steps": steps}
-        given |= numbers | {"dt": self.program.model.simulate.step, "rounds": STARTING_ROUNDS}
+        given |= numbers | {
+            "dt": self.program.model.simulate.step,
+            "fastest": physics.fastest,
+            "rounds": STARTING_ROUNDS,
+        }
         model, data = physics.model, physics.data
 
         def compute() -> tuple[bool, int]:

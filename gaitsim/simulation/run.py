@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from types import SimpleNamespace
 from typing import Any, Literal
 
@@ -80,8 +80,6 @@ class Simulator:
             # The spec's own numbers were checked: here only a candidate makes an invalid model.
             wall = time.perf_counter() - began
             return Outcome("failed", str(error), 0, simulate.step, {}, None, wall)
-        if not ending.failure:
-            ending = replace(ending, failure=self._loop.physics.runaway(ending.steps))
         metrics, score, failure = self._judged(ending, values)
         status, reason, level = "completed", "", ""
         if failure:

@@ -147,3 +147,14 @@ def test_a_component_out_of_its_domain_is_named_in_both_modes() -> None:
         "leg (leg/virtual_two_segment) gives no finite number in output at 0 s: "
         "knee_angle = nan, knee_velocity = nan, knee_offset = nan, force = nan"
     }
+
+
+def test_a_joint_that_jumps_in_mid_run_ends_both_modes_alike() -> None:
+    # All numbers stay finite, and 6 s later the knee is slow again: only within the run can this be seen.
+    jumping = [("ground.damping", "100 kN s/m")]
+    rapid, normal = (
+        simulator(ROOT / "specs" / "hopping_leg_mass.yaml", jumping, mode).run() for mode in ("rapid", "normal")
+    )
+    assert (rapid.status, rapid.metrics) == ("failed", {})
+    assert rapid.reason.startswith("the mechanics diverged: knee moves at ")
+    assert facts(rapid) == facts(normal)
