@@ -9,30 +9,38 @@ import typer
 
 from gaitsim.cli import console
 from gaitsim.cli.options import Json, Libraries, ModeName, Results, Set, Spec, Trust, opening
-from gaitsim.errors import command
+from gaitsim.errors import Usage, command
 from gaitsim.folders import results_folder
 
 if TYPE_CHECKING:
+    from gaitsim.simulation.run import Mode
     from gaitsim.study.limits import Hunt, Limit
+    from gaitsim.study.listening import Listener
+    from gaitsim.study.opening import Opening
 
 
 def limit(
     spec: Spec,
     vary: Annotated[
-        list[str],
+        list[str] | None,
         typer.Option(metavar="ADDRESS=FROM:TO", help="Address and range; the first end must succeed; repeatable."),
-    ],
+    ] = None,
     until: Annotated[
         str | None,
         typer.Option(metavar="METRIC=VALUE", help="Limit of a metric (default: the run must complete)."),
     ] = None,
-    tolerance: Annotated[float, typer.Option(metavar="SHARE", help="Precision, as a share of the range.")] = 0.01,
+    tolerance: Annotated[
+        float | None, typer.Option(metavar="SHARE", help="Precision, as a share of the range (default: 0.01).")
+    ] = None,
     points: Annotated[
-        int, typer.Option(metavar="COUNT", help="Number of values in the scan, including both ends.")
-    ] = 9,
+        int | None,
+        typer.Option(metavar="COUNT", help="Number of values in the scan, including both ends (default: 9)."),
+    ] = None,
     mode: Annotated[
-        ModeName, typer.Option(help="rapid: native code; normal: plain Python, for debugging.")
-    ] = ModeName.rapid,
+        ModeName | None,
+        typer.Option(help="rapid: native code; normal: plain Python, for debugging (default: rapid)."),
+    ] = None,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue the limits that a result began.")] = False,
     settings: Set = None,
     no_save: Annotated[bool, typer.Option("--no-save", help="Do not save a result folder.")] = False,
     origin: Annotated[
@@ -51,17 +59,50 @@ def limit(
 
     Each --vary is varied alone: first a scan of its range, then bisection at the first failure.
 
-    Example: gaitsim limit specs/walking_geyer2010_perturbed.yaml --vary push.strength='0 N:1000 N'
+    Every run is saved as it ends, and what was interrupted can continue.
+
+    Examples:
+
+    gaitsim limit specs/walking_geyer2010_perturbed.yaml --vary push.strength='0 N:1000 N'
+
+    gaitsim limit results/2026-11-22-walking_geyer2010_perturbed-3f9c --resume
     """
+    opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
+    talk, asked = console.Talk(json), {"vary": vary, "until": until, "tolerance": tolerance, "points": points}
+    if resume:
+        hunt = _resumed(opened, {**asked, "mode": mode, "from": origin}, no_save, talk)
+    else:
+        hunt = _begun(opened, asked, origin, mode, None if no_save else results_folder(results), talk)
+    try:
+        hunt.run(talk)
+    except KeyboardInterrupt:
+        if hunt.folder:
+            console.say(f"interrupted; to continue: {command('limit', hunt.folder, '--resume')}")
+        raise
+    _report(hunt, hunt.folder, json)
+    return console.code_after(hunt.keeping.error, 0)
+
+
+def _begun(
+    opened: Opening, asked: dict[str, Any], origin: str | None, mode: ModeName | None, root: Path | None, talk: Listener
+) -> Hunt:
     from gaitsim.study.limits import Scan, hunted
 
-    opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
-    talk = console.Talk(json)
-    hunt = hunted(opened, vary, until, Scan(points, tolerance), origin, mode.value, talk)
-    hunt.run(talk.progress("runs"))
-    keeping = hunt.kept(None if no_save else results_folder(results))
-    _report(hunt, keeping.folder, json)
-    return console.code_after(keeping.error, 0)
+    if not asked["vary"]:
+        rule = "nothing says what is varied; add a range, such as --vary push.strength='0 N:1000 N'"
+        raise Usage(f"{rule}, or --resume a result.")
+    scan = Scan(**{name: asked[name] for name in ("points", "tolerance") if asked[name] is not None})
+    said: Mode = "normal" if mode == ModeName.normal else "rapid"
+    return hunted(opened, asked["vary"], asked["until"], scan, origin, said, root, talk)
+
+
+def _resumed(opened: Opening, asked: dict[str, Any], no_save: bool, talk: Listener) -> Hunt:
+    from gaitsim.study.limits import resumed
+
+    said = next((name for name, value in asked.items() if value is not None), "no-save" if no_save else None)
+    if said:
+        raise Usage(f"--{said} begins new limits, and --resume continues old ones; leave one out.")
+    return resumed(opened, talk)
 
 
 def _report(hunt: Hunt, folder: Path | None, json: bool) -> None:

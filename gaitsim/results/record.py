@@ -15,7 +15,7 @@ from gaitsim.model import Model
 from gaitsim.optimization.draws import Draws
 from gaitsim.results.bundle import Bundle
 from gaitsim.results.lock import Lock
-from gaitsim.results.manifest import new_manifest
+from gaitsim.results.manifest import new_manifest, write_manifest
 from gaitsim.results.provenance import changes_file
 from gaitsim.results.readme import readme
 from gaitsim.results.rows import row_words
@@ -23,6 +23,7 @@ from gaitsim.results.store import CannotSave, create_result, finish, row_data
 from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.units import with_unit
+from gaitsim.whole import write_whole
 
 _ROWS = "evaluations.jsonl"
 _MOVE = "make room or rights there, name another folder with --results, or use --no-save"
@@ -32,15 +33,24 @@ _TOLD = 20  # runs that the README lists
 class Record:
     """A result folder that begins with its first run. What was written of it stays, whatever comes after.
 
-    model: the first one that is run; xml: its MJCF. place: the folder of its spec. draws: around the model's starts, if the runs are these.
+    model: the first one that is run; xml: its MJCF. place: the folder of its spec. draws: around the model's starts, if
+    the runs are these. more: what else the manifest says.
     """
 
     def __init__(
-        self, root: Path, bundle: Bundle, model: Model, xml: str, mode: str, place: Path, draws: Draws | None = None
+        self,
+        root: Path,
+        bundle: Bundle,
+        model: Model,
+        xml: str,
+        mode: str,
+        place: Path,
+        draws: Draws | None = None,
+        more: Map[str, Any] | None = None,
     ) -> None:
         self.folder: Path | None = None
         self._root, self._bundle, self._model, self._xml, self._draws = root, bundle, model, xml, draws
-        self._manifest = new_manifest("run", bundle, mode, place, notices=list(model.notices))
+        self._manifest = new_manifest("run", bundle, mode, place, notices=list(model.notices), **(more or {}))
         if draws:
             self._manifest["draws"] = asdict(draws)
         self._drawn = draws.values(problem_of(model)) if draws else []
@@ -48,12 +58,22 @@ class Record:
         self._rows: list[dict[str, Any]] = []
         self._held = ExitStack()
 
+    def go_on(self, folder: Path, rows: list[dict[str, Any]], manifest: dict[str, Any]) -> None:
+        """Continue the result in a folder, which has these runs. Errors: CannotSave, Locked."""
+        self._held.enter_context(Lock(folder))
+        self.folder, self._rows, self._manifest = folder, rows, manifest | {"status": "running"}
+        try:
+            write_whole(folder / _ROWS, "".join(_line(row) for row in rows))
+            write_manifest(folder, self._manifest)
+        except OSError as error:
+            raise self._cannot(error) from error
+
     def add(self, settings: Map[str, str], outcome: Outcome) -> None:
         """Keep one run more. Errors: CannotSave, with the runs before it as they were."""
         row = row_data(settings, outcome)
         if self._draws:
             row |= {"draw": len(self._rows) + 1, "values": self._drawn[len(self._rows)]}
-        line = json.dumps(row, allow_nan=False) + "\n"
+        line = _line(row)
         if self.folder is None:
             more = {_ROWS: line, "README.md": readme(self._manifest, [], ""), **self._changes}
             self.folder = create_result(self._root, self._bundle, self._model, self._xml, self._manifest, more, _MOVE)
@@ -99,6 +119,10 @@ class Record:
             within = f"within {100 * self._draws.within:g} % completed (seed {self._draws.seed})"
             tally = [f"{done} of {self._draws.count} draws {within}"]
         return [*tally, *(_told(row, self._model.metrics) for row in self._rows[:_TOLD])]
+
+
+def _line(row: Map[str, Any]) -> str:
+    return json.dumps(row, allow_nan=False) + "\n"
 
 
 def _told(row: Map[str, Any], units: Map[str, str]) -> str:

@@ -3,22 +3,26 @@
 from __future__ import annotations
 
 import json
+import math
 from collections.abc import Mapping as Map
 from pathlib import Path
 from typing import Any
 
 from gaitsim.errors import Fault, Mark, Usage
 from gaitsim.results.manifest import BadResult
+from gaitsim.simulation.outcome import Outcome
 
 COMPARED = ("status", "score", "metrics", "steps")  # what makes two runs the same
 
 
-def read_rows(folder: Path) -> list[dict[str, Any]]:
-    """The runs of a result. Errors: BadResult."""
+def read_rows(folder: Path, begun: bool = False) -> list[dict[str, Any]]:
+    """The runs of a result; `begun`: without a last line that a writer that died left unfinished. Errors: BadResult."""
     path = folder / "evaluations.jsonl"
     rows: list[dict[str, Any]] = []
     try:
-        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), start=1):
+        text = path.read_text(encoding="utf-8")
+        text = text[: text.rfind("\n") + 1] if begun else text
+        for number, line in enumerate(text.splitlines(), start=1):
             row = json.loads(line)
             tables = (row["settings"], row["metrics"], row.get("values", {}))
             if not all(isinstance(table, dict) for table in tables) or not {*COMPARED} <= {*row}:
@@ -27,6 +31,12 @@ def read_rows(folder: Path) -> list[dict[str, Any]]:
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise BadResult(Fault(f"this cannot be read ({error}); restore it from a copy.", Mark(str(path)))) from error
     return rows
+
+
+def outcome_of(row: Map[str, Any], step: float) -> Outcome:
+    """How a run ended that was read; step: of its model, in s."""
+    metrics = {name: math.nan if value is None else float(value) for name, value in row["metrics"].items()}
+    return Outcome(row["status"], row["reason"], row["steps"], step, metrics, row["score"], 0.0)
 
 
 def pick_row(folder: Path, which: str) -> int:

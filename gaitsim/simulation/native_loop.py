@@ -95,7 +95,8 @@ class NativeLoop:
             failure = self.physics.divergence(reached.step)
         elif reached.status >= native.STOPPED:
             stopped_by = self.program.stops[reached.status - native.STOPPED]
-        rows = None if record is None else record[: reached.step + (stopped_by is not None)]
+        whole = stopped_by is not None or reached.status == native.DIVERGED
+        rows = None if record is None else record[: reached.step + whole]
         return LoopResult(reached.step, stopped_by, failure, reached.tables.p, reached.tables.x, rows)
 
     def _reach(self, values: Sequence[float], steps: int, record: Floats | None = None) -> _Reached:

@@ -54,6 +54,7 @@ class PythonLoop:
         checked = Checked(self.program, self.physics, tables)
         record: list[Floats] = []
         done, failure = 0, None
+        diverged: str | None = None
         stopper: int | None = None
         try:
             checked.start()
@@ -65,14 +66,14 @@ class PythonLoop:
                 if stopper is not None:
                     break
                 checked.update(done)
-                failure = self.physics.divergence(done)
-                if failure:
+                failure = diverged = self.physics.divergence(done)
+                if diverged:
                     break
                 done += 1
         except Failed as error:
             failure = str(error)
-        # As in native code: the step in which a run fails is not part of its record.
-        record = record[: done + (stopper is not None)]
+        # As in native code: the instant at which a part fails is not in the record; that before a divergence is.
+        record = record[: done + (stopper is not None or diverged is not None)]
         rows = np.array(record).reshape(-1, len(self.program.signals)) if recorded else None
         return LoopResult(done, stopper, failure, tables.p, tables.x, rows)
 

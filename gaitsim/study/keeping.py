@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from gaitsim.errors import GaitsimError
 
@@ -21,9 +21,16 @@ class Keeping:
     """Keeps runs in a result folder below `root`, or nowhere if there is none."""
 
     def __init__(
-        self, root: Path | None, source: Source, models: Sequence[Model], mode: str, draws: Draws | None = None
+        self,
+        root: Path | None,
+        source: Source,
+        models: Sequence[Model],
+        mode: str,
+        draws: Draws | None = None,
+        more: Mapping[str, Any] | None = None,
     ) -> None:
         self.error: GaitsimError | None = None
+        self._more = more
         self._root, self._source, self._models, self._mode, self._draws = root, source, models, mode, draws
         self._record: Record | None = None
 
@@ -39,13 +46,20 @@ class Keeping:
                 self._record = self._record or self._begun(self._root)
                 self._record.add(settings, outcome)
 
+    def go_on(self, folder: Path, rows: list[dict[str, Any]]) -> None:
+        """Keep the runs that come in a folder that has some. Errors: CannotSave, Locked."""
+        self._root = folder.parent
+        self._record = self._begun(self._root)
+        self._record.go_on(folder, rows, dict(self._source.manifest))
+
     def _begun(self, root: Path) -> Record:
         from gaitsim.compiler.mjcf import assemble
         from gaitsim.results.record import Record
 
         model = self._models[0]
         xml = assemble(model, model.values()).xml
-        return Record(root, self._source.bundle(self._models), model, xml, self._mode, self._source.place, self._draws)
+        bundle, place = self._source.bundle(self._models), self._source.place
+        return Record(root, bundle, model, xml, self._mode, place, self._draws, self._more)
 
     @contextmanager
     def noting(self) -> Iterator[None]:

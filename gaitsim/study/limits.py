@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, ValidationError
 
 from gaitsim.errors import Fault, Mark, SimulationFailed, Usage, did_you_mean
 from gaitsim.model import Model
 from gaitsim.optimization.limit import Bracket
+from gaitsim.results.manifest import BadResult, changed_versions
+from gaitsim.results.rows import outcome_of, read_rows
 from gaitsim.simulation.batch import run_all
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode
@@ -19,6 +24,7 @@ from gaitsim.study.keeping import Keeping
 from gaitsim.study.listening import Listener
 from gaitsim.study.opening import Opening, only_row, started_from
 from gaitsim.study.source import Source
+from gaitsim.study.starts import Starts
 from gaitsim.text.document import Mapping as Document
 from gaitsim.text.quantity import BadQuantity, quantity_of
 from gaitsim.units import parse_unit, with_unit
@@ -136,7 +142,8 @@ Row = tuple[dict[str, str], Outcome]
 class Hunt:
     """Limits of several numbers of one document, each varied alone.
 
-    settings: of the document, as a row of a study says them. models, rows: of every run, in order.
+    settings: of the document, as a row of a study says them. rows: of every run, in order. keeping: what is kept of
+    them, run by run. before: runs that an earlier hunt, which did not come to its end, has made.
     """
 
     source: Source
@@ -145,33 +152,58 @@ class Hunt:
     limits: Sequence[Limit]
     until: Until
     mode: Mode
-    models: list[Model] = field(default_factory=list)
+    starts: Starts
+    keeping: Keeping
+    before: list[Row] = field(default_factory=list)
     rows: list[Row] = field(default_factory=list)
 
-    def run(self, hear: Callable[[int, int], None]) -> None:
-        """Find all limits; `hear` is told how many runs are done, and of how many at most.
+    def run(self, listener: Listener) -> None:
+        """Find all limits, and keep each run as it ends.
 
-        Errors: SimulationFailed if a range does not hold at its first end; InvalidSpec, InvalidComponent.
+        What cannot be kept is `keeping.error`. Errors: SimulationFailed if a range does not hold at its first end;
+        InvalidSpec, InvalidComponent; KeyboardInterrupt, with the runs before it kept.
         """
-        most = sum(limit.bracket.most for limit in self.limits)
-        while asked := [(limit, share) for limit in self.limits for share in limit.bracket.ask()]:
-            models = [self._model(limit, share) for limit, share in asked]
-            self.models += models
-            for (limit, share), outcome in zip(asked, run_all(models, self.mode), strict=True):
-                limit.outcomes[share] = outcome
-                limit.bracket.tell(share, self.until.holds(outcome, limit.outcomes[0.0]))
-                self.rows.append(({**self.settings, limit.address: limit.at(share)}, outcome))
-                hear(len(self.rows), most)
-            self._check_begun()
+        hear, most = listener.progress("runs"), sum(limit.bracket.most for limit in self.limits)
+        try:
+            while asked := [(limit, share) for limit in self.limits for share in limit.bracket.ask()]:
+                for (limit, share), outcome in zip(asked, self._outcomes(asked, listener), strict=True):
+                    limit.outcomes[share] = outcome
+                    limit.bracket.tell(share, self.until.holds(outcome, limit.outcomes[0.0]))
+                    hear(len(self.rows), most)
+                self._check_begun()
+        except KeyboardInterrupt:
+            self.keeping.close("interrupted")
+            raise
+        except SimulationFailed:
+            self.keeping.close()
+            raise
+        self.keeping.close()
         hear(most, most)
 
-    def kept(self, root: Path | None) -> Keeping:
-        """The runs in a result folder below `root`, or nowhere if there is none; what stood in the way is in it."""
-        keeping = Keeping(root, self.source, self.models, self.mode)
-        for settings, outcome in self.rows:
-            keeping.add(settings, outcome)
-        keeping.close()
-        return keeping
+    @property
+    def folder(self) -> Path | None:
+        """The result folder; None if the runs were not kept."""
+        return self.keeping.folder
+
+    def _outcomes(self, asked: Sequence[tuple[Limit, float]], listener: Listener) -> Iterator[Outcome]:
+        """The outcomes of what is asked, in its order: what was found before, and the rest run and kept."""
+        settings = [{**self.settings, limit.address: limit.at(share)} for limit, share in asked]
+        known = [self._known(each) for each in settings]
+        missing = [pair for pair, found in zip(asked, known, strict=True) if found is None]
+        models = [self._model(limit, share) for limit, share in missing]
+        outcomes = run_all(models, self.mode, None if self.rows else self.starts.look_at)
+        for each, found in zip(settings, known, strict=True):
+            outcome = next(outcomes) if found is None else found
+            if not self.rows:
+                for warning in self.starts.warnings:
+                    listener.say(warning)
+            self.rows.append((each, outcome))
+            if found is None:
+                self.keeping.add(each, outcome)
+            yield outcome
+
+    def _known(self, settings: Mapping[str, str]) -> Outcome | None:
+        return next((outcome for each, outcome in self.before if each == settings), None)
 
     def _model(self, limit: Limit, share: float) -> Model:
         return self.source.model(override(self.document, limit.address, limit.at(share), "--vary"))
@@ -195,12 +227,14 @@ def hunted(
     scan: Scan,
     origin: str | None,
     mode: Mode,
+    root: Path | None,
     listener: Listener,
 ) -> Hunt:
     """The limits that are to be found of what is opened; nothing is run yet.
 
     vary: what goes how far, each as ADDRESS=FROM:TO. until: METRIC=VALUE that ends it, or None for a run that does
-    not complete. origin: as of `started_from`. Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted.
+    not complete. origin: as of `started_from`. root: where the result folder goes; None keeps nothing.
+    Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted.
     """
     scan.check()
     limits = [Limit(*span(text), Bracket(scan.points, scan.tolerance)) for text in vary]
@@ -211,8 +245,75 @@ def hunted(
             raise Usage(f"--from {origin}: {rule}.")
         source, notices = started_from(replace(source, notices=()), opening, origin)
         source = replace(source, notices=tuple(notices))
+    asked = {"vary": list(vary), "until": until, "points": scan.points, "tolerance": scan.tolerance}
+    return _hunt(source, opening, limits, asked, mode, root, listener)
+
+
+def resumed(opening: Opening, listener: Listener) -> Hunt:
+    """The limits that a result began to look for; what it has of them is not run again.
+
+    Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted, Locked, CannotSave.
+    """
+    if not opening.names_result:
+        rule = f"{opening.path} is a spec; name the result of the limits that were begun"
+        raise Usage(f"--resume: {rule}, such as results/2026-11-22-walking-3f9c.")
+    if opening.settings or opening.folders or opening.candidate is not None:
+        raise Usage(f"--resume: {opening.path} goes on as it was begun; leave out --set, --library and --candidate.")
+    source = opening.source()
+    asked, limits = _recorded(opening.path, source.manifest)
+    changed = changed_versions(dict(source.manifest))
+    if changed:
+        rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
+        raise BadResult(f"{opening.path}: {rule}; install those, or begin anew.")
+    rows = read_rows(opening.path, begun=True)
+    mode: Mode = "normal" if source.manifest["mode"] == "normal" else "rapid"
+    hunt = _hunt(source, opening, limits, asked, mode, None, listener)
+    step = source.model(hunt.document).simulate.step
+    hunt.before = [({**row["settings"]}, outcome_of(row, step)) for row in rows]
+    hunt.keeping.go_on(opening.path, rows)
+    listener.say(f"resuming {opening.path}: {len(rows)} runs are in it")
+    return hunt
+
+
+def _recorded(folder: Path, manifest: Mapping[str, Any]) -> tuple[dict[str, Any], list[Limit]]:
+    """What a result says of the limits that it looks for. Errors: BadResult, Usage."""
+    if "limit" not in manifest:
+        raise BadResult(f"{folder}: this is no result of gaitsim limit, so there is nothing to resume.")
+    try:
+        asked = _Asked.model_validate(manifest["limit"])
+        scan = Scan(asked.points, asked.tolerance)
+        scan.check()
+        return asked.model_dump(), [Limit(*span(text), Bracket(asked.points, asked.tolerance)) for text in asked.vary]
+    except (ValidationError, Usage) as error:
+        rule = "what it says about its limits cannot be read, so it was edited; restore it from a copy"
+        raise BadResult(Fault(f"{rule}.", Mark(str(folder / "manifest.json")))) from error
+
+
+class _Asked(BaseModel):
+    """What was asked of a hunt, as its manifest says."""
+
+    model_config = ConfigDict(extra="forbid", strict=True)
+
+    vary: list[str]
+    until: str | None
+    points: int
+    tolerance: float
+
+
+def _hunt(
+    source: Source,
+    opening: Opening,
+    limits: list[Limit],
+    asked: dict[str, Any],
+    mode: Mode,
+    root: Path | None,
+    listener: Listener,
+) -> Hunt:
+    """The hunt for limits of what was opened; what is unusual is said."""
     row = only_row(source, opening.path)
     model = source.model(row.document)
     for notice in dict.fromkeys([*source.notices, *model.notices]):
         listener.say(notice)
-    return Hunt(source, row.document, row.settings, limits, until_of(until, model), mode)
+    until = until_of(asked["until"], model)
+    keeping = Keeping(root, source, [model], mode, more={"limit": asked})
+    return Hunt(source, row.document, row.settings, limits, until, mode, Starts(source), keeping)

@@ -164,11 +164,11 @@ def limit(
 
     opened = opening(path, set, library, start, trust, candidate, results)
     ranges = [f"{address}={ends}" for address, ends in vary.items()]
-    hunt = hunted(opened, ranges, until, Scan(points, tolerance), origin, mode, Silence())
-    hunt.run(Silence().progress("runs"))
-    kept = hunt.kept(_root(results) if save else None)
-    if kept.error:
-        raise kept.error
+    root = _root(results) if save else None
+    hunt = hunted(opened, ranges, until, Scan(points, tolerance), origin, mode, root, Silence())
+    hunt.run(Silence())
+    if hunt.keeping.error:
+        raise hunt.keeping.error
     return hunt
 
 

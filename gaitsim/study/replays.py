@@ -9,6 +9,7 @@ from gaitsim.analysis.replays.replay import Replay, replayed
 from gaitsim.results.manifest import changed_versions
 from gaitsim.results.store import row_data
 from gaitsim.study.source import Source
+from gaitsim.study.starts import Starts
 from gaitsim.study.verify import differences
 
 
@@ -17,10 +18,17 @@ def replay_of(source: Source, path: Path, label: str = "", duration: float | Non
 
     Errors: InvalidSpec, InvalidComponent.
     """
-    model = source.model()
+    model, starts = source.model(), Starts(source)
     manifest = dict(source.manifest)
-    made = replayed(model, path, label or (path.name if manifest else path.stem), manifest, duration=duration)
-    notices = [*source.notices, *model.notices]
+    made = replayed(
+        model,
+        path,
+        label or (path.name if manifest else path.stem),
+        manifest,
+        duration=duration,
+        prepared=starts.look_at,
+    )
+    notices = [*source.notices, *model.notices, *starts.warnings]
     changed = changed_versions(manifest) if manifest else []
     if changed:
         notices.append(f"{path} was made with other versions ({', '.join(changed)})")

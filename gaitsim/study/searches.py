@@ -91,7 +91,8 @@ def begun(request: Request, root: Path) -> Tuning:
     mode: Mode = "normal" if request.mode == "normal" else "rapid"
     each = episode_models(source.document, source.library, source.name)
     simulator, starts = Simulator(model, mode), Starts(source)
-    starts.look_at(simulator)
+    for one in (simulator, *(Simulator(episode.started_at(source.starts), mode) for episode in each)):
+        starts.look_at(one)
     bundle = source.bundle([model, *each])
     told = {"spec": str(request.opening.path), "search": search, "smoke": request.smoke, "notices": notices}
     manifest = new_manifest("optimize", bundle, mode, source.place, **told)

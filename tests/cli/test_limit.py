@@ -3,12 +3,18 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
+import time
 from pathlib import Path
 
 import pytest
 
 from gaitsim.results.bundle import read_bundle
+from gaitsim.results.manifest import read_manifest
+from gaitsim.results.record import Record
 from gaitsim.results.rows import read_rows
+from gaitsim.simulation.outcome import Outcome
 
 from .commands import Said, gaitsim
 
@@ -119,6 +125,109 @@ def test_a_result_can_be_looked_through(spec: Path, capsys: pytest.CaptureFixtur
     assert number(found["last"]) == pytest.approx(1.22, abs=0.01)
 
 
+RANGES = ("--vary", f"{HEIGHT}=2 m:0 m", "--vary", "simulate.duration=0.1 s:1.1 s")
+
+
+def test_limits_that_were_killed_go_on_where_they_were(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    whole = json.loads(gaitsim(capsys, "limit", str(spec), *RANGES, "--json").out)
+    folder = Path(whole["result"])
+    journal, manifest = folder / "evaluations.jsonl", folder / "manifest.json"
+    complete, lines = journal.read_bytes(), journal.read_bytes().splitlines(keepends=True)
+    for kept in (b"".join(lines[:1]), b"".join(lines[:7]), b"".join(lines[:7]) + lines[7][:40], complete):
+        journal.write_bytes(kept)
+        manifest.write_text(manifest.read_text().replace('"complete"', '"running"'))
+        said = gaitsim(capsys, "limit", str(folder), "--resume", "--json")
+        assert json.loads(said.out) == whole
+        assert f"resuming {folder}: {kept.count(bytes([10]))} runs are in it" in said.err
+        assert (journal.read_bytes(), json.loads(manifest.read_text())["status"]) == (complete, "complete")
+
+
+def test_limits_are_kept_run_by_run(
+    spec: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    add, seen = Record.add, []
+
+    def counted(record: Record, settings: dict[str, str], outcome: Outcome) -> None:
+        add(record, settings, outcome)
+        seen.append(len(read_rows(next(Path("results").iterdir()))))
+        if len(seen) == 5:
+            raise KeyboardInterrupt
+
+    monkeypatch.setattr(Record, "add", counted)
+    said = gaitsim(capsys, "limit", str(spec), *RANGES)
+    (folder,) = Path("results").iterdir()
+    assert (said.code, seen) == (130, [1, 2, 3, 4, 5])
+    assert f"interrupted; to continue: gaitsim limit {folder} --resume" in said.err
+    assert json.loads((folder / "manifest.json").read_text())["status"] == "interrupted"
+
+
+@pytest.mark.slow
+def test_a_real_kill_loses_no_run_that_was_kept(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    spec.write_text(STONE.replace("step: 1 ms", "step: 5 us").replace("duration: 0.5 s", "duration: 4 s"))
+    words = ("limit", str(spec), "--vary", "stone.mass=1 kg:3 kg", "--until", "way=1 km", "--points", "40")
+    whole = json.loads(gaitsim(capsys, *words, "--json").out)
+    process = subprocess.Popen([sys.executable, "-m", "gaitsim.cli.main", *words, "--results", "killed"])
+    rows: list[Path] = []
+    while not rows or rows[0].read_bytes().count(b"\n") < 5:
+        assert process.poll() is None
+        time.sleep(0.02)
+        rows = list(Path("killed").glob("*[!.partial]/evaluations.jsonl"))
+    process.kill()
+    process.wait()
+    before = rows[0].read_bytes()
+    said = gaitsim(capsys, "limit", str(rows[0].parent), "--resume", "--json")
+    assert rows[0].read_bytes().startswith(before)
+    assert rows[0].read_bytes() == Path(whole["result"], "evaluations.jsonl").read_bytes()
+    assert json.loads(said.out)["limits"] == whole["limits"]
+
+
+def test_a_start_beyond_reason_is_refused(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    ground = "ground: {use: contact/spring_damper, frame: stone.center, stiffness: 1 MN/m, damping: 1 kN s/m}"
+    spec.write_text(STONE.replace("  guide:", f"  {ground}\n  guide:").replace("position: 2 m", "position: -1 m"))
+    said = gaitsim(capsys, "limit", str(spec), "--vary", "stone.mass=1 kg:2 kg")
+    assert (said.code, said.out) == (3, "")
+    assert "possible is" in said.err
+    assert not Path("results").exists()
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (
+            (),
+            "nothing says what is varied; add a range, such as --vary push.strength='0 N:1000 N', or --resume a "
+            "result.",
+        ),
+        (
+            ("--resume",),
+            "--resume: stone.yaml is a spec; name the result of the limits that were begun, such as "
+            "results/2026-11-22-walking-3f9c.",
+        ),
+        (("--resume", "--points", "3"), "--points begins new limits, and --resume continues old ones; leave one out."),
+        (("--resume", "--no-save"), "--no-save begins new limits, and --resume continues old ones; leave one out."),
+    ],
+)
+def test_what_is_no_beginning_and_no_going_on(
+    spec: Path, words: tuple[str, ...], message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    said = gaitsim(capsys, "limit", spec.name, *words)
+    assert (said.code, said.err.strip()) == (2, message)
+
+
+def test_a_run_or_an_edited_result_is_not_resumed(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    run = json.loads(gaitsim(capsys, "run", str(spec), "--json").out)["result"]
+    said = gaitsim(capsys, "limit", run, "--resume")
+    assert said.err.strip() == f"{run}: this is no result of gaitsim limit, so there is nothing to resume."
+    folder = Path(json.loads(gaitsim(capsys, "limit", str(spec), *FINE, "--json").out)["result"])
+    path = folder / "manifest.json"
+    before = path.read_text()
+    for old, new in (('"points": 9', '"points": "9"'), ('"points": 9', '"points": 1'), ("=1 kg:2", "=1 kg:")):
+        path.write_text(before.replace(old, new))
+        said = gaitsim(capsys, "limit", str(folder), "--resume")
+        rule = "what it says about its limits cannot be read, so it was edited; restore it from a copy."
+        assert (said.code, said.err.strip()) == (3, f"{path}: {rule}")
+
+
 FINE = ("--vary", "stone.mass=1 kg:2 kg")
 
 
@@ -196,7 +305,8 @@ def test_what_is_refused(
 ) -> None:
     said = gaitsim(capsys, "limit", spec.name, *words)
     assert (said.code, said.err.splitlines()[0], said.out) == (code, message, "")
-    assert not Path("results").exists()
+    kept = [read_manifest(folder)["status"] for folder in Path("results").glob("*")]
+    assert kept == (["complete"] if code == 4 else [])  # the first run is kept, although it ends badly
 
 
 def test_a_variant_starts_at_the_tuned_values_of_its_parent(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -48,7 +48,7 @@ CANDIDATES = [
     [0.25, 4.5, 0.4, 60.0],
     [0.3, 2.0, 0.001, 20.0],  # an inertia that no body has: MuJoCo refuses it
 ]
-REASONS = ["", "", "no finite number", "", "MuJoCo refuses"]
+REASONS = ["", "", "the mechanics diverged", "", "MuJoCo refuses"]
 
 
 def facts(outcome: Outcome) -> tuple[object, ...]:
@@ -128,14 +128,12 @@ def test_candidates_in_any_order_give_the_same_bits(mode: str) -> None:
 
 def test_a_failed_candidate_says_the_same_in_both_modes() -> None:
     made = model(OWN / "tuned_rod.yaml")
-    diverging = [2.0, 0.5, 0.3, 1e9]
+    diverging = [2.0, 0.5, 0.3, 2.5e6]
     rapid = Simulator(made, "rapid").run(diverging, recorded=True)
     normal = Simulator(made, "normal").run(diverging, recorded=True)
     assert rapid.reason == normal.reason
-    assert rapid.reason == (
-        "energy (sensor/mechanical_energy) gives no finite number in output at 0.014 s: kinetic = inf, total = inf"
-    )
-    assert rapid.steps == normal.steps > 0
+    assert rapid.reason.startswith("the mechanics diverged: pivot moves at 1")
+    assert rapid.steps == normal.steps
     assert rapid.trajectory is not None and normal.trajectory is not None
     np.testing.assert_allclose(rapid.trajectory.values, normal.trajectory.values, rtol=1e-9)
 
@@ -157,4 +155,5 @@ def test_a_joint_that_jumps_in_mid_run_ends_both_modes_alike() -> None:
     )
     assert (rapid.status, rapid.metrics) == ("failed", {})
     assert rapid.reason.startswith("the mechanics diverged: knee moves at ")
+    assert rapid.steps > 500
     assert facts(rapid) == facts(normal)

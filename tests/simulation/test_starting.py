@@ -135,3 +135,37 @@ def test_each_command_says_it(
     said = "extensor.normalized_force: at the start this is 23.06" if wrong else "extensor.path_length: at the start"
     assert said in err
     assert ("warning: " in err) is not wrong
+
+
+EPISODES = """gaitsim: 1
+extends: hopping_leg_mass.yaml
+optimize: {episodes: [{knee_angle: 40 deg}, {knee_angle: 40 rad}]}
+"""
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("analyze", "hopping_leg_mass.yaml", "--set", "initial.knee.angle=40 rad", "--only"),
+        (
+            "limit",
+            "hopping_leg_mass.yaml",
+            "--set",
+            "initial.knee.angle=40 rad",
+            "--vary",
+            "mass=80 kg:90 kg",
+        ),
+        ("optimize", "episodes.yaml", "--smoke", "--workers", "0"),
+    ],
+)
+def test_each_command_that_simulates_refuses_what_cannot_be_meant(
+    words: tuple[str, ...], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    Path("hopping_leg_mass.yaml").write_text((ROOT / "specs" / "hopping_leg_mass.yaml").read_text())
+    Path("episodes.yaml").write_text(EPISODES)
+    with pytest.raises(SystemExit) as ended:
+        main(list(words))
+    assert ended.value.code == 3
+    assert "knee.angle: at the start this is 2292 deg" in capsys.readouterr().err
+    assert not Path("results").exists()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -102,14 +102,20 @@ def replayed(
     notices: Sequence[str] = (),
     mode: Mode = "rapid",
     duration: float | None = None,
+    prepared: Callable[[Simulator], None] | None = None,
 ) -> Replay:
     """Run a model once more, from its starts, and keep every signal; `duration` in seconds.
+
+    prepared: sees the simulator before it runs.
 
     Errors: InvalidSpec, InvalidComponent. A run that fails is a Replay up to its failure.
     """
     if duration is not None:
         model = replace(model, simulate=replace(model.simulate, duration=duration))
-    outcome = Simulator(model, mode).run(recorded=True)
+    simulator = Simulator(model, mode)
+    if prepared:
+        prepared(simulator)
+    outcome = simulator.run(recorded=True)
     return Replay(label or model.name, path, model, outcome, manifest or {}, tuple(notices))
 
 

@@ -17,7 +17,7 @@ class Spring(Component):
 
     @staticmethod
     def output(p, u, x, y):
-        y.torque = -p.stiffness * math.exp(800 * (0.53 - u.angle) * 100)
+        y.torque = -p.stiffness * math.exp(2e6 * (0.5232 - u.angle))
 
     @staticmethod
     def update(p, u, x, y, dt):
