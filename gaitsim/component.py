@@ -101,7 +101,8 @@ class Frame:
 class Input:
     """A signal that comes in. `sums`: any number of senders (`to:`); else one (`from:`).
 
-    usual, possible: as of an output.
+    usual, possible: as of an output. like: the series, if there is one, whose unit must fit that of a signal that an
+    input of the unit `*` takes.
     """
 
     unit: str
@@ -110,6 +111,7 @@ class Input:
     sums: bool = False
     usual: tuple[End, End] | None = None
     possible: tuple[End, End] | None = None
+    like: str = ""
 
 
 @dataclass(frozen=True)

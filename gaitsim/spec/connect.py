@@ -116,7 +116,10 @@ class Wiring:
 
     def _unit(self, port: str, ports: str) -> str:
         owner, _, name = port.rpartition(".")
-        unit: str = getattr(self.parts[owner].type, ports)[name].unit
+        part = self.parts[owner]
+        declared = getattr(part.type, ports)[name]
+        curve = part.series.get(getattr(declared, "like", ""))
+        unit: str = curve.unit if curve else declared.unit
         return unit
 
     def _connection(self, source: str, target: str, wire: Wire) -> Connection:

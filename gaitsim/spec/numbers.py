@@ -11,7 +11,7 @@ from gaitsim.model import Free, Number
 from gaitsim.spec.inheritance import VALUE_KEYS
 from gaitsim.text.document import Mapping, Node, Scalar, Sequence
 from gaitsim.text.expression import BadExpression, parse_expression
-from gaitsim.text.quantity import example, number, written_unit
+from gaitsim.text.quantity import comma_within, example, number, written_unit
 from gaitsim.text.quantity import said as said_of
 from gaitsim.text.spelling import respelled
 from gaitsim.units import parse_unit, with_unit
@@ -182,7 +182,8 @@ class NumberTable:
     def _bounds(self, node: Node, declared: Parameter, address: str) -> tuple[float, float] | None:
         if not isinstance(node, Sequence) or len(node.items) != 2:
             pair = ", ".join(with_unit(str(bound), declared.unit) for bound in (1, 5))
-            self.faults.add(f"tune needs two bounds; write such as tune: [{pair}].", node.mark, address)
+            hint = comma_within(node) if isinstance(node, Sequence) else ""
+            self.faults.add(f"tune needs two bounds; write such as tune: [{pair}].{hint}", node.mark, address)
             return None
         low, high = (number(item, declared.unit, self.faults, address) for item in node.items)
         if low is None or high is None:

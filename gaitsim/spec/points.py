@@ -12,6 +12,7 @@ from gaitsim.model import WORLD, Place
 from gaitsim.spec.numbers import NumberTable
 from gaitsim.spec.scope import Where, absolute
 from gaitsim.text.document import Mapping, Node, Scalar, Sequence
+from gaitsim.text.quantity import comma_within
 from gaitsim.text.spelling import respelled
 
 _LENGTH = Parameter("m", "a coordinate")
@@ -67,8 +68,9 @@ class PointReader:
             return None
         on, at = node.entries["on"], node.entries["at"]
         if not isinstance(at, Sequence) or len(at.items) != 3:
+            hint = comma_within(at) if isinstance(at, Sequence) else ""
             rule = "at: needs three coordinates; write such as at: [-4 cm, 0 m, 30 %]."
-            self.faults.add(rule, at.mark, address)
+            self.faults.add(f"{rule}{hint}", at.mark, address)
             return None
         if not isinstance(on, Scalar) or not isinstance(on.value, str):
             self.faults.add("on: names a part or a frame; write such as on: shank.", on.mark, address)

@@ -10,7 +10,7 @@ from gaitsim.components.table import resampled
 from gaitsim.errors import Faults, GaitsimError
 from gaitsim.model import Recording
 from gaitsim.text.document import Node, Scalar, Sequence
-from gaitsim.text.quantity import example, measured, number, written_unit
+from gaitsim.text.quantity import comma_within, example, measured, number, written_unit
 from gaitsim.units import parse_unit
 
 SAMPLE = "norms/fukuchi2018_walking.knee_flexion"
@@ -22,6 +22,10 @@ def read_series(
     """The numbers of a series in SI, `declared.size` of them at equal distances; None after a fault."""
     if isinstance(node, Sequence):
         before = len(faults.found)
+        comma = comma_within(node)
+        if comma:
+            faults.add(f"one item has a unit and the one before it has none.{comma}", node.mark, address)
+            return None
         given_in = written_unit(node) if declared.unit == "*" else None
         unit = given_in.text if given_in else declared.unit
         values = [number(item, unit, faults, f"{address}.{i}") for i, item in enumerate(node.items)]

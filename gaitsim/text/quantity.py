@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 import re
 
@@ -117,10 +118,32 @@ def _is_unit(text: str) -> bool:
     return True
 
 
+def comma_within(node: Sequence) -> str:
+    """What to write for a number whose decimal comma made two items of a list, such as [1,5 kg]; else empty."""
+    items = node.items
+    for first, second in itertools.pairwise(items):
+        if isinstance(first, Scalar) and isinstance(second, Scalar) and type(first.value) is int:
+            ending = str(second.value)
+            alone = len(items) == 2 and type(second.value) is int
+            if ending[:1].isdigit() and (alone or _has_unit(ending)) and _is_quantity(f"{first.value}.{ending}"):
+                said, meant = f"{first.value},{ending}", f"{first.value}.{ending}"
+                return f' A comma separates items; if "{said}" is one number, write {meant}.'
+    return ""
+
+
+def _has_unit(text: str) -> bool:
+    try:
+        quantity = parse_quantity(text)
+    except UnknownUnit:
+        return False
+    return quantity is not None and quantity.unit.text != "1"
+
+
 def number(node: Node, unit: str, faults: Faults, address: str) -> float | None:
     """The SI value of a scalar node where `unit` is declared; None after a fault."""
     if not isinstance(node, Scalar) or isinstance(node.value, bool) or node.value is None:
-        faults.add(f"{said(node)} is no number; {needed(unit)}.", node.mark, address)
+        hint = comma_within(node) if isinstance(node, Sequence) else ""
+        faults.add(f"{said(node)} is no number; {needed(unit)}.{hint}", node.mark, address)
         return None
     try:
         return quantity_of(node.value, unit).value

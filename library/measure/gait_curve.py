@@ -19,7 +19,7 @@ class GaitCurve(Component):
         "1", "-1 if the signal grows the other way.", default=1, bounds=(-1, 1), source="definition: as is"
     )
     zero = Parameter("*", "Value of the signal that the curve calls 0.", default=0, source="definition: as is")
-    signal = Input("*", "Such as the angle of a joint.")
+    signal = Input("*", "Such as the angle of a joint.", like="curve")
     stance = Input("1", "1 while the leg stands, such as {from: stance_r.in_stance}.")
     delay = Input("s", "By how much stance is late, such as {from: stance_r.delay}.", default=0)
 

@@ -200,10 +200,12 @@ class _Check:
                 faults = list(curve_faults(name, one, self.known, self.helpers))
             elif isinstance(one, Input | Output | State) and not faults:
                 faults = list(range_faults(name, one, self.known))
-            if isinstance(one, Metric) and one.like and not isinstance(self.known.get(one.like), Series):
+            if isinstance(one, Metric | Input) and one.like and not isinstance(self.known.get(one.like), Series):
                 faults.append(f"{name}: like is {one.like!r}, and that is no series of this file; write its name.")
-            if isinstance(one, Metric) and one.like and one.unit != "*":
-                faults.append(f'{name}: a metric like {one.like} has the unit of that; write Metric("*", ...).')
+            if isinstance(one, Metric | Input) and one.like and one.unit != "*":
+                kind = type(one).__name__
+                rule = f'has the unit of that; write {kind}("*", ...)'
+                faults.append(f"{name}: {'an' if kind == 'Input' else 'a'} {kind.lower()} like {one.like} {rule}.")
             for message in faults:
                 self.add(message, self.places.get(name))
 
