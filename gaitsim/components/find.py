@@ -40,12 +40,12 @@ def shipped_specs() -> dict[str, Path]:
 
 
 def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path, ...]:
-    """The search path for a spec, nearest first."""
+    """The search path for a spec, nearest first; of folders above it, a marked project and a marked lab."""
     beside = (spec or Path.cwd() / "x").absolute().parent
     project, lab = project_of(beside), lab_of(beside)
-    near = [f / "library" for f in ((lab,) if lab else (beside, *beside.parents)) if (f / "library").is_dir()]
+    near = (lab or beside) / "library"
     own = [project / "components"] if project else []
-    folders = [beside / "components", *extra, *own, *near[:1], shipped_folder()]
+    folders = [beside / "components", *extra, *own, near, shipped_folder()]
     unique = {folder.resolve(): folder for folder in reversed(folders) if folder.is_dir()}
     return tuple(folder for folder in folders if unique.get(folder.resolve()) is folder)
 
