@@ -159,8 +159,9 @@ def test_strange_code_is_not_run_unasked(begun: Path, study: Study, command: Any
 
 
 def test_an_edited_muscle_in_the_library_changes_no_result(tmp_path: Path, command: Any, monkeypatch: Any) -> None:
-    """With a copy of the library, as a researcher's workspace has it."""
+    """With a copy of the library, as a researcher's lab has it."""
     monkeypatch.chdir(tmp_path)
+    Path("lab.yaml").write_text("gaitsim: 1\n")
     monkeypatch.setenv("GAITSIM_STATE", str(tmp_path / "state"))
     shutil.copytree(ROOT / "library", tmp_path / "library", ignore=shutil.ignore_patterns("__pycache__"))
     shutil.copytree(ROOT / "specs", tmp_path / "specs")
