@@ -135,6 +135,8 @@ def analyze(
 
 def _tell(replays: Sequence[Replay], products: Products, json: bool) -> None:
     """The measures and what was made: on stdout."""
+    from gaitsim.analysis.gait.changes import gait_changes
+
     runs = [_data(replay) for replay in replays]
     if json:
         console.give_json(
@@ -145,7 +147,7 @@ def _tell(replays: Sequence[Replay], products: Products, json: bool) -> None:
                 "report": str(products.report) if products.report else None,
                 "exports": [str(path) for path in products.exports],
                 "notices": [*dict.fromkeys(n for replay in replays for n in replay.notices), *products.lacks],
-                **({"results": runs} if len(runs) > 1 else {}),
+                **({"results": runs, "changes": gait_changes(replays)} if len(runs) > 1 else {}),
                 **({"errors": _errors(products)} if products.faults else {}),
             }
         )
@@ -167,6 +169,7 @@ def _tell(replays: Sequence[Replay], products: Products, json: bool) -> None:
 
 def _give_gait(replays: Sequence[Replay]) -> None:
     """What the legs of each walker do, and how that compares with people."""
+    from gaitsim.analysis.gait.changes import changes_table
     from gaitsim.analysis.gait.numbers import gait_table, norms_table
 
     for replay in replays:
@@ -174,6 +177,9 @@ def _give_gait(replays: Sequence[Replay]) -> None:
         for table in (gait_table(replay), norms_table(replay)):
             if table is not None:
                 console.give_table(table.columns, table.rows, title)
+    changes = changes_table(replays)
+    if changes is not None:
+        console.give_table(changes.columns, changes.rows, f"changes from {changes.columns[2]}")
 
 
 def _data(replay: Replay) -> dict[str, Any]:

@@ -10,16 +10,9 @@ import pytest
 from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.gait.overlay import gait_overlays
 from gaitsim.analysis.gait.panels import PEOPLE
-from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.signals.plots import overview
 from tests.analysis.replays import cut, of_spec
-from tests.analysis.walking import phase, walk
-
-
-def bent(label: str, degrees: float) -> Replay:
-    """A walk whose knees bend as far, once in each stride."""
-    bend = {s: np.pi - np.radians(degrees) * np.sin(np.pi * phase(s)) for s in ("l", "r")}
-    return replace(walk({f"leg_{s}.knee.angle": angle for s, angle in bend.items()}), label=label)
+from tests.analysis.walking import bent, phase, walk
 
 
 def lines(drawing: Drawing, row: int, column: int) -> dict[str, np.ndarray]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 
@@ -68,6 +69,12 @@ def walk(signals: Mapping[str, Floats | float], used: Model | None = None) -> Re
     trajectory = Trajectory(TIMES, tuple(columns), tuple(s.unit for s in recorded), values)
     outcome = Outcome("completed", "", len(TIMES), STEP, {}, None, 0.0, trajectory)
     return Replay("walk", SPEC, chosen, outcome)
+
+
+def bent(label: str, degrees: float) -> Replay:
+    """A walk whose knees bend as far, once in each stride."""
+    bend = {s: np.pi - np.radians(degrees) * np.sin(np.pi * phase(s)) for s in ("l", "r")}
+    return replace(walk({f"leg_{s}.knee.angle": angle for s, angle in bend.items()}), label=label)
 
 
 def extended(folder: Path, more: str) -> Model:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.drawings.style import COLUMN
+from gaitsim.analysis.gait.changes import changes_table
 from gaitsim.analysis.gait.numbers import gait_table, norms_table
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.report import facts
@@ -64,6 +65,7 @@ def write(
         title=" and ".join(dict.fromkeys(replay.name for replay in replays)),
         runs=[_run(replay) for replay in replays],
         metrics=facts.metrics_table(replays),
+        changes=changes_table(replays),
         remarks=list(dict.fromkeys([*_remarks(replays), *remarks])),
         pictures=[_picture(drawing) for drawing in drawings],
         film=None if video is None else _film(video, path.parent),
