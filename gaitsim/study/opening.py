@@ -101,10 +101,9 @@ def _tuned(opening: Opening) -> Source:
     or fewer, from the same starts within the same bounds.
     """
     from gaitsim.results.tuned import read_tuned, tuned_path
-    from gaitsim.spec.inheritance import parents
 
     source, spec = _as_written(opening), opening.path
-    owner = next((path for path in (spec, *parents(spec)) if tuned_path(path).is_file()), None)
+    owner = _owner(spec)
     if owner is None or not (owner == spec or _tunes_what(source, Opening(owner, folders=opening.folders))):
         return source
     path = tuned_path(owner)
@@ -117,6 +116,14 @@ def _tuned(opening: Opening) -> Source:
     return replace(source, starts=tuned_there.values, origin=str(path), notices=(notice,))
 
 
+def _owner(spec: Path) -> Path | None:
+    """The spec itself or its nearest parent, whichever has tuned values; None if none has."""
+    from gaitsim.results.tuned import tuned_path
+    from gaitsim.spec.inheritance import parents
+
+    return next((path for path in (spec, *parents(spec)) if tuned_path(path).is_file()), None)
+
+
 def _tunes_what(source: Source, parent: Opening) -> bool:
     """Whether all that a source tunes is tuned alike in the spec that it extends."""
     alike = {(f.address, f.low, f.high, f.start) for f in _as_written(parent).model().free}
@@ -126,7 +133,8 @@ def _tunes_what(source: Source, parent: Opening) -> bool:
 def started_from(source: Source, opening: Opening, origin: str | None) -> tuple[Source, list[str]]:
     """The source of a spec with starts from where `--from` says, and what matched.
 
-    origin: tuned, middle, or a result folder; None changes nothing. Errors: Usage, BadResult, Untrusted.
+    origin: tuned (values beside the spec or its nearest parent with some), middle, or a result folder; None changes
+    nothing. Errors: Usage, BadResult, Untrusted.
     """
     from gaitsim.errors import Usage
     from gaitsim.results.manifest import result_named
@@ -138,10 +146,10 @@ def started_from(source: Source, opening: Opening, origin: str | None) -> tuple[
     if origin == "middle":
         where, values = "the middle of all bounds", {f.address: 0.5 * (f.low + f.high) for f in free}
     elif origin == "tuned":
-        path = tuned_path(opening.path)
-        if not path.is_file():
-            raise Usage(f"--from tuned: there is no {path}; make it with optimize --adopt.")
-        where, values = str(path), read_tuned(path, free).values
+        owner = _owner(opening.path)
+        if owner is None:
+            raise Usage(f"--from tuned: there is no {tuned_path(opening.path)}; make it with optimize --adopt.")
+        where, values = str(tuned_path(owner)), read_tuned(tuned_path(owner), free).values
     else:
         where, result = origin, Opening(result_named(Path(origin), opening.results), trusted=opening.trusted)
         if not result.names_result:

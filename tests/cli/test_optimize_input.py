@@ -385,6 +385,14 @@ def test_from_where_nothing_matches(begun: Path, command: Any) -> None:
     assert ended.err == f"--from {begun}: none of its values ({known}) is tuned here.\n"
 
 
+def test_a_variant_starts_at_the_tuned_values_of_the_spec_that_it_extends(study: Study, command: Any) -> None:
+    Path("variant.yaml").write_text("gaitsim: 1\nextends: spec.yaml\n")
+    assert command("optimize", "spec.yaml", *SMALL, "--adopt").code == 0
+    ended = command("optimize", "variant.yaml", *SMALL, "--from", "tuned")
+    assert ended.code == 0, ended.err
+    assert "start from spec.tuned.yaml: balance.proportional" in ended.err
+
+
 @pytest.mark.parametrize(
     ("which", "code", "said"),
     [
