@@ -53,7 +53,7 @@ class SpatialHinge(Component):
     angle = Output(
         "rad",
         "Angle from the posture in which the two frames are aligned.",
-        usual=("lower - 0.1", "upper + 0.1"),
+        usual=("lower - 0.2", "upper + 0.2"),
         possible=("lower - pi / 2", "upper + pi / 2"),
     )
     angular_velocity = Output("rad/s", "Rate of the angle.")

@@ -30,9 +30,11 @@ class SpatialOrientation(Component):
     yaw = Output("rad", "Turn to the left; on the left side, to the right.")
     roll = Output("rad", "Lean to its right; on the left side, to its left.")
     pitch = Output("rad", "Lean forwards.")
+    rise = Output("rad", "How far its own side is raised, - roll: of a pelvis the obliquity, of a thigh the abduction.")
     yaw_velocity = Output("rad/s", "Angular velocity to the left; on the left side, to the right.")
     roll_velocity = Output("rad/s", "Angular velocity to the right; on the left side, to the left.")
     pitch_velocity = Output("rad/s", "Angular velocity forwards.")
+    rise_velocity = Output("rad/s", "Angular velocity that raises its own side.")
 
     @staticmethod
     def output(p, u, x, y):
@@ -41,6 +43,7 @@ class SpatialOrientation(Component):
         y.pitch = -math.asin(max(-1.0, min(1.0, y.x_up)))
         y.yaw_velocity = y.side * y.about_z
         y.roll_velocity = y.side * y.about_x
+        y.rise, y.rise_velocity = -y.roll, -y.roll_velocity
 
     @staticmethod
     def update(p, u, x, y, dt):

@@ -1,0 +1,46 @@
+"""SCONE's walker H1922 in space, from its published values: what it begins with, and that both sides are one leg."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from gaitsim.simulation.run import Simulator
+
+from .models import ROOT, model
+
+SPEC = ROOT / "specs" / "walking_scone_h1922.yaml"
+
+
+def test_it_takes_its_first_step_from_the_published_values() -> None:
+    found = Simulator(model(SPEC, [("simulate.duration", "0.6 s")])).run(recorded=True).trajectory
+    assert found is not None
+    assert 0.7 < found["leg_r.ground.load"][0] < 1.3  # the right foot carries one body weight
+    landed = np.flatnonzero(found["leg_l.ground.load"] > 0.1)
+    assert 0.3 < found.times[landed[0]] < 0.6
+    assert found["root.x"][landed[0]] > 0.3
+    assert np.max(np.abs(found["root.roll"])) < 0.25
+
+
+def test_two_mirrored_starts_are_two_mirrored_walks() -> None:
+    walks = []
+    for side, sign in (("r", 1), ("l", -1)):
+        other = {"r": "l", "l": "r"}[side]
+        settings = {f"initial.root.{name}": f"{sign * value} rad" for name, value in (("yaw", 0.02), ("roll", 0.07))}
+        joints = {"hip_flexion": (0.31, 0.24), "hip_adduction": (0.02, -0.03), "knee": (-0.28, -1.07)}
+        joints |= {"hip_rotation": (0.05, -0.02), "ankle": (0.17, -0.42)}
+        for joint, (near, far) in joints.items():
+            settings[f"initial.leg_{side}.{joint}.angle"] = f"{near} rad"
+            settings[f"initial.leg_{other}.{joint}.angle"] = f"{far} rad"
+        for name in ("bending", "rotation"):
+            settings[f"initial.lumbar_{name}.angle"] = f"{0.03 * sign} rad"
+        for joint in ("hip_flexion", "knee", "ankle"):
+            for leg in "lr":
+                settings[f"initial.leg_{leg}.{joint}.angular_velocity"] = "0.2 rad/s"
+        settings["simulate.duration"] = "0.3 s"
+        walks.append(Simulator(model(SPEC, settings.items())).run(recorded=True).trajectory)
+    right, left = walks
+    for signal, sign in (("root.x", 1), ("root.z", 1), ("root.y", -1), ("root.roll", -1), ("root.yaw", -1)):
+        assert left[signal] == pytest.approx(sign * right[signal], abs=1e-7)
+    for signal in ("hip_adduction.angle", "gluteus_medius.activation", "ground.medial_load", "knee.angle"):
+        assert left[f"leg_l.{signal}"] == pytest.approx(right[f"leg_r.{signal}"], abs=1e-6)
