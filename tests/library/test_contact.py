@@ -32,6 +32,7 @@ USUAL = {"MASS": "80 kg", "SPEED": "0 m/s", "GRAVITY": "9.81 m/s^2", "STEP": "0.
 CONTACTS = {
     "geyer2010": ("geyer2010", 0.0),
     "hunt_crossley": ("hunt_crossley, radius: 3 cm", 0.03),
+    "spatial_hunt_crossley": ("spatial_hunt_crossley, radius: 3 cm", 0.03),
     "smooth": ("hunt_crossley, radius: 3 cm, smooth: 1", 0.03),
     "mujoco": ("mujoco, radius: 1 cm", 0.01),
     "yielding_sole": ("yielding_sole, radius: 1 cm", 0.01),
@@ -80,6 +81,7 @@ def test_drops_on_half_the_stiffness(tmp_path: Path, height: float, peak: float)
         ("spring_damper", 0.01),
         ("yielding_sole", 0.01),
         ("hunt_crossley", 2 * (WEIGHT / (4 / 3 * 2e6 * math.sqrt(0.03))) ** (2 / 3)),
+        ("spatial_hunt_crossley", WEIGHT ** (2 / 3) / 5503.2),
     ],
 )
 def test_static_depth_and_load(tmp_path: Path, contact: str, depth: float) -> None:
@@ -257,7 +259,7 @@ parts:
 initial: {root.z: HEIGHT, root.upward_velocity: SPEED, root.forward_velocity: FORWARD, ankle.angle: ANGLE}
 simulate: {duration: DURATION, step: STEP}
 """
-RIGHT = {"geyer2010": 0.04, "hunt_crossley": 0.01, "mujoco": 0.05, "spring_damper": 0.01}
+RIGHT = {"geyer2010": 0.04, "hunt_crossley": 0.01, "spatial_hunt_crossley": 0.01, "mujoco": 0.05, "spring_damper": 0.01}
 
 
 def landing(folder: Path, contact: str, step: str) -> tuple[float, float]:
@@ -278,7 +280,7 @@ def test_a_landing_is_right_at_the_largest_step(tmp_path: Path, contact: str) ->
     assert loss == pytest.approx(lost, rel=1e-3)
 
 
-@pytest.mark.parametrize("contact", ["geyer2010", "hunt_crossley", "mujoco", "yielding_sole"])
+@pytest.mark.parametrize("contact", ["geyer2010", "hunt_crossley", "spatial_hunt_crossley", "mujoco", "yielding_sole"])
 @pytest.mark.parametrize("step", ["1 ms", "0.25 ms"])
 def test_a_foot_stands_without_noise(tmp_path: Path, contact: str, step: str) -> None:
     law, touch = CONTACTS[contact]
