@@ -45,6 +45,11 @@ class Bundle:
             whole.update(f"\0{path}\0{text}".encode())
         return whole.hexdigest()
 
+    @property
+    def digests(self) -> dict[str, str]:
+        """The digest of each text, by path."""
+        return {path: hashlib.sha256(text.encode()).hexdigest() for path, text in sorted(self.files.items())}
+
     def write(self, folder: Path) -> None:
         """Write the files below a folder. Errors: OSError."""
         for path, text in self.files.items():

@@ -50,6 +50,7 @@ def new_manifest(kind: str, bundle: Bundle, mode: str, place: Path, **more: Any)
         "mode": mode,
         **provenance(place),
         "digest": bundle.digest,
+        "files": bundle.digests,
         **more,
     }
 
@@ -78,6 +79,7 @@ class _Known(BaseModel):
     created: str
     gaitsim: str
     versions: dict[str, str]
+    files: dict[str, str] = {}
     notices: list[str] = []
     search: dict[str, Any] = {}
     best_score: float | None = None
@@ -120,9 +122,22 @@ def read_result(folder: Path) -> tuple[dict[str, Any], Bundle]:
     manifest = recorded_manifest(folder)
     bundle = read_bundle(folder, manifest["name"])
     if bundle.digest != manifest["digest"]:
-        rule = "its spec or components were edited after it was made, so it would not re-run as it was"
+        rule = f"{_edited(manifest.get('files', {}), bundle)} after it was made, so it would not re-run as it was"
         raise BadResult(f"{folder}: {rule}; restore them, or copy the folder's spec.yaml and run that.")
     return manifest, bundle
+
+
+def _edited(before: Map[str, str], bundle: Bundle) -> str:
+    """What happened to the files of a result. before: their digests; older results have none."""
+    now = bundle.digests
+    same = [path for path in before if now.get(path) == before[path]]
+    found = {
+        "edited": [path for path in now if path in before and path not in same],
+        "removed": [path for path in before if path not in now],
+        "added": [path for path in now if path not in before],
+    }
+    said = [f"{', '.join(paths)} {'was' if len(paths) == 1 else 'were'} {verb}" for verb, paths in found.items() if paths]
+    return " and ".join(said) if before and said else "its spec or components were edited"
 
 
 def check_is_result(folder: Path) -> None:

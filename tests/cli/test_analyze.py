@@ -332,7 +332,7 @@ def strange(folder: Path) -> None:
 
 
 BAD = {
-    damaged: "{0}: its spec or components were edited after it was made, so it would not re-run as it was; "
+    damaged: "{0}: spec.yaml was edited after it was made, so it would not re-run as it was; "
     "restore them, or copy the folder's spec.yaml and run that.",
     without_manifest: "{0}: there is no manifest.json, so this is no result, or one that was never finished being "
     "made; name another, or see: gaitsim results list",

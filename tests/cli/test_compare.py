@@ -88,4 +88,4 @@ def test_what_cannot_be_compared_is_told(capsys: Capture) -> None:
         file.write("# edited\n")
     said = gaitsim(capsys, "results", "compare", result, "hop.yaml")
     assert said.code == 3
-    assert said.err.startswith(f"{result}: its spec or components were edited after it was made")
+    assert said.err.startswith(f"{result}: spec.yaml was edited after it was made")

@@ -264,13 +264,13 @@ DAMAGES: dict[str, tuple[Any, str]] = {
     "other seed": (other_seed, "generation 1, candidate 0 is not the vector that this search asks for"),
     "no journal": (lambda f: (f / "evaluations.jsonl").unlink(), "evaluations.jsonl: this journal is missing"),
     "no spec": (lambda f: (f / "spec.yaml").unlink(), "spec.yaml: there is no such file; restore it from a copy"),
-    "spec edited": (lambda f: rewritten(f / "spec.yaml", ("60", "61")), "its spec or components were edited"),
+    "spec edited": (lambda f: rewritten(f / "spec.yaml", ("60", "61")), "spec.yaml was edited after it was made"),
     "component edited": (
         lambda f: rewritten(f / "components/trap/none.py", ("1.0", "2.0")),
-        "its spec or components were edited after it was made",
+        "components/trap/none.py was edited after it was made",
     ),
-    "component gone": (lambda f: (f / "components/trap/none.py").unlink(), "its spec or components were edited"),
-    "component added": (lambda f: (f / "components/trap/x.py").write_text("1"), "its spec or components were edited"),
+    "component gone": (lambda f: (f / "components/trap/none.py").unlink(), "none.py was removed after it was made"),
+    "component added": (lambda f: (f / "components/trap/x.py").write_text("1"), "components/trap/x.py was added after"),
     "component binary": (
         lambda f: (f / "components/trap/none.py").write_bytes(b"\xff\xfe"),
         "components/trap/none.py: byte 0 (0xff, in line 1) is not UTF-8; restore it from a copy",
