@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _PROJECTS = "projects"
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,63}")
 _LAB_TEXT = (
-    "gaitsim: 1\nabout: A lab. Its library/ serves every spec below it; projects/ has a folder for each project.\n"
+    "format: 1\nabout: A lab. Its library/ serves every spec below it; projects/ has a folder for each project.\n"
 )
 _IGNORED = "results/\nanalysis/\n*.partial\n"
 _VARIANT = """\
@@ -233,7 +233,7 @@ def _lacking(bundle: Bundle, libraries: list[Path]) -> dict[str, str]:
 def _marker(project: Project, bundle: Bundle) -> str:
     return dump(
         {
-            "gaitsim": 1,
+            "format": 1,  # not `gaitsim`, which would say that this is a spec
             "project": project.name,
             "author": project.author,
             "date": project.date,
