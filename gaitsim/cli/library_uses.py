@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -49,7 +50,7 @@ def used_by(
     from gaitsim.study.records import SHORT
     from gaitsim.study.uses import using_results, using_specs
 
-    scope, talk = _scope(where, results, library), console.Talk(json)
+    scope, talk = scope_of(where, results, library), console.Talk(json)
     version = scope.version(reference)[:SHORT]
     rows = [("spec", one.archived.name, one.version, "") for one in using_specs(reference, scope, talk)]
     rows += [("result", shown(r.folder), r.version, r.created[:10]) for r in using_results(reference, scope, talk)]
@@ -83,25 +84,14 @@ def test(
     """
     from gaitsim.study.acceptance import tested
 
-    found = list(tested(reference, _scope(where, results, library), trust, console.Talk(json)))
+    found = list(tested(reference, scope_of(where, results, library), trust, console.Talk(json)))
     wrong = [one for one in found if one.state in ("differs", "error")]
     if json:
         console.give_json(
-            {"use": reference, "status": "differs" if wrong else "holds", "users": [_data(t) for t in found]}
+            {"use": reference, "status": "differs" if wrong else "holds", "users": [tested_data(t) for t in found]}
         )
         return ExitCode.FAILED if wrong else 0
-    rows = [row for one in found for row in difference_rows(one.name, one.differs)]
-    if rows:
-        console.give_table(DIFFERENCE_COLUMNS, rows)
-        console.give("")
-    console.give_table(
-        ["what", "name", "made with", "now"], [(t.what, t.name, t.before, _WORDS[t.state]) for t in found]
-    )
-    compared = [one for one in found if one.state in ("differs", "error", "holds")]
-    console.give(f"{len(compared) - len(wrong)} of {len(compared)} users of {reference} do what was recorded")
-    for one in wrong:
-        if one.error:
-            console.say_error(one.error)
+    give_tested(reference, found)
     return ExitCode.FAILED if wrong else 0
 
 
@@ -119,7 +109,7 @@ def history(
     from gaitsim.study.lineage import history as versions_of
     from gaitsim.study.uses import using_results, using_specs
 
-    scope, talk = _scope(where, results, library), console.Talk(json)
+    scope, talk = scope_of(where, results, library), console.Talk(json)
     copies = list(using_results(reference, scope, talk))
     found = versions_of(reference, scope.library(), copies, using_specs(reference, scope, talk))
     if json:
@@ -138,7 +128,25 @@ _WORDS = {
 }
 
 
-def _scope(where: list[str] | None, results: list[Path] | None, library: list[Path] | None) -> Scope:
+def give_tested(reference: str, found: Sequence[Tested]) -> None:
+    """What users of a component do with its present version: tables, and on stderr what could not be run."""
+    wrong = [one for one in found if one.state in ("differs", "error")]
+    rows = [row for one in found for row in difference_rows(one.name, one.differs)]
+    if rows:
+        console.give_table(DIFFERENCE_COLUMNS, rows)
+        console.give("")
+    console.give_table(
+        ["what", "name", "made with", "now"], [(t.what, t.name, t.before, _WORDS[t.state]) for t in found]
+    )
+    compared = [one for one in found if one.state in ("differs", "error", "holds")]
+    console.give(f"{len(compared) - len(wrong)} of {len(compared)} users of {reference} do what was recorded")
+    for one in wrong:
+        if one.error:
+            console.say_error(one.error)
+
+
+def scope_of(where: list[str] | None, results: list[Path] | None, library: list[Path] | None) -> Scope:
+    """Where users are looked for, as options say."""
     from gaitsim.study.uses import Scope
 
     return Scope(tuple(where or ()), tuple(results or [results_folder()]), tuple(library or ()))
@@ -152,7 +160,8 @@ def _few(names: tuple[str, ...]) -> str:
     return ", ".join(names if len(names) < 4 else [*names[:3], f"{len(names) - 3} more"])
 
 
-def _data(one: Tested) -> dict[str, object]:
+def tested_data(one: Tested) -> dict[str, object]:
+    """What one user does, as data."""
     return {
         "what": one.what,
         "name": one.name,

@@ -18,6 +18,7 @@ from gaitsim.cli import (
     cite,
     console,
     library,
+    library_promote,
     library_uses,
     limit,
     new,
@@ -54,6 +55,7 @@ app.command("projects")(projects.projects)
 app.command("schema")(schema.schema)
 library.app.command("used-by")(library_uses.used_by)
 library.app.command("test")(library_uses.test)
+library.app.command("promote")(library_promote.promote)
 library.app.command("history")(library_uses.history)
 app.add_typer(library.app, name="library")
 app.add_typer(archive.app, name="archive")

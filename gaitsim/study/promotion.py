@@ -1,0 +1,283 @@
+"""A prototype moves from a project into a library: only with docs, sources, bounds, and a test of its physics."""
+
+from __future__ import annotations
+
+import ast
+import importlib.util
+import shutil
+import subprocess
+import sys
+import tempfile
+from collections.abc import Mapping as Map
+from dataclasses import dataclass
+from pathlib import Path
+
+from gaitsim.components.bibliography import FILE, keys_of, read_bibliography
+from gaitsim.components.checks.shared import imported_names
+from gaitsim.components.composite import ComponentFile
+from gaitsim.components.find import KIND, Library, library_folders, shipped_folder, shown
+from gaitsim.components.places import lab_of, project_of
+from gaitsim.components.review import review
+from gaitsim.components.skeleton import test_of
+from gaitsim.errors import Fault, GaitsimError, InvalidComponent, Mark, SimulationFailed, Usage
+from gaitsim.results.store import CannotSave
+from gaitsim.study.acceptance import Tested, tested
+from gaitsim.study.listening import Listener
+from gaitsim.study.uses import Scope
+from gaitsim.whole import write_whole
+
+_BESIDE = 'Path(__file__).parents[1] / "components"'  # how a test of `library new` finds its component
+_WRITTEN = frozenset(
+    node.name for node in ast.walk(ast.parse(test_of("kind", "name"))) if isinstance(node, ast.FunctionDef)
+)
+_LINES = 25  # of a test that fails
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is to be promoted, and how.
+
+    source: the folder of kinds that it is in. target: the library that it goes to. test: its file. replace: put it in
+    the place of one that is there, if no user of that changes. force: also if some do. scope: where users are
+    looked for.
+    """
+
+    reference: str
+    source: Path
+    target: Path
+    test: Path
+    replace: bool
+    force: bool
+    scope: Scope
+
+
+@dataclass(frozen=True)
+class Promoted:
+    """What was done: files of the library, files of the project that are gone, and what users of a replaced one do."""
+
+    files: tuple[Path, ...]
+    removed: tuple[Path, ...]
+    users: tuple[Tested, ...]
+
+
+class Changes(GaitsimError):
+    """A new version of a component changes what its users do."""
+
+    exit_code = SimulationFailed.exit_code
+
+    def __init__(self, message: str, users: tuple[Tested, ...]) -> None:
+        super().__init__(message)
+        self.users = users
+
+
+def asked(
+    reference: str,
+    origin: Path | None,
+    target: Path | None,
+    test: Path | None,
+    replace: bool,
+    force: bool,
+    scope: Scope,
+) -> Request:
+    """The request that options make: from the project here into the library of its lab, unless they say otherwise.
+
+    Errors: Usage.
+    """
+    here = origin or project_of(Path.cwd()) or Path()
+    source = here / "components" if (here / "components").is_dir() else here
+    kind, _, name = reference.partition("/")
+    if not any((source / kind / f"{name}{suffix}").is_file() for suffix in (".py", ".yaml")):
+        found = Library((source,)) if source.is_dir() else Library(())
+        hint = f"Here are: {', '.join(found.references())}." if found.references() else "Name its project with --from."
+        raise Usage(f"{reference}: {shown(source)} has no such component. {hint}")
+    lab = lab_of(source)
+    if target is None and lab is None:
+        raise Usage("there is no lab here, whose library it could go to; name a library: --to FOLDER.")
+    to = target or (lab / "library" if lab else Path())
+    if to.resolve() == source.resolve():
+        raise Usage(f"--to {to}: the component is there already; name another library.")
+    return Request(reference, source, to, test or source.parent / "tests" / f"test_{name}.py", replace, force, scope)
+
+
+def promoted(request: Request, listener: Listener) -> Promoted:
+    """Check a prototype, run its test in a copy of the library, and move both there. Nothing is changed before.
+
+    Raises:
+        Usage: Something is there already.
+        InvalidComponent: Docs, sources, bounds or the test are lacking, or the test fails.
+        Changes: Users of the version that is there would change.
+        CannotSave: The library cannot be written.
+    """
+    component = _reviewed(request)
+    test = _physics_test(request)
+    files = _files(request, component, test)
+    taken = _taken(request, files)
+    with tempfile.TemporaryDirectory(prefix="gaitsim-") as folder:
+        stage = Path(folder) / request.target.name
+        _stage(stage, request, files)
+        with listener.waiting("its test"):
+            _run_test(stage.parent / "tests" / "library" / request.test.name, request.test)
+        users = _users(request, stage, listener) if taken else ()
+    wrong = [user for user in users if user.state in ("differs", "error")]
+    if wrong and not request.force:
+        names = ", ".join(user.name for user in wrong)
+        rule = f"{request.reference}: {len(wrong)} of its users would not do what was recorded: {names}"
+        raise Changes(f"{rule}. If this is meant, use --force, and then gaitsim archive record.", tuple(users))
+    _write(request, files)
+    return Promoted(tuple(files), _removed(request, component), tuple(users))
+
+
+def _reviewed(request: Request) -> ComponentFile:
+    """The component, if a library may have it. Errors: InvalidComponent."""
+    library = Library((request.source, *_behind(request.target)))
+    faults = review(request.reference, library)
+    if faults:
+        raise InvalidComponent(faults)
+    component = library.find(request.reference)
+    inside = [r for r, c in library.used().items() if c is not component and c.path.parents[1] == request.source]
+    if inside:
+        rule = f"it has inner parts of the project: {', '.join(inside)}; promote these first."
+        raise InvalidComponent(Fault(rule, Mark(shown(component.path))))
+    return component
+
+
+def _behind(target: Path) -> tuple[Path, ...]:
+    """The folders that serve a library: itself, and the shipped one."""
+    return (target, *([] if target.resolve() == shipped_folder().resolve() else [shipped_folder()]))
+
+
+def _physics_test(request: Request) -> str:
+    """The text of the test, as it stands beside the library.
+
+    Errors: InvalidComponent if there is none, or none of physics.
+    """
+    path, name = request.test, request.reference
+    place = Mark(shown(path))
+    form = "gaitsim library new writes the beginning of one"
+    if not path.is_file():
+        raise InvalidComponent(
+            Fault(f"there is no test of {name}; write it here, or name it: --test FILE. {form}.", place)
+        )
+    text = path.read_text(encoding="utf-8")
+    try:
+        tree = ast.parse(text)
+    except SyntaxError as error:
+        raise InvalidComponent(
+            Fault(f"this is no Python: {error.msg}.", Mark(shown(path), error.lineno or 0))
+        ) from error
+    if name not in text:
+        raise InvalidComponent(Fault(f"this test does not name {name}; name the test of it: --test FILE.", place))
+    modules = {node.module or "" for node in ast.walk(tree) if isinstance(node, ast.ImportFrom)}
+    modules |= {alias.name for node in ast.walk(tree) if isinstance(node, ast.Import) for alias in node.names}
+    if not any(module == "gaitsim" or module.startswith("gaitsim.simulation") for module in modules):
+        rule = (
+            "this test calls nothing: it imports neither gaitsim.simulation.trial, for the component alone, nor gaitsim"
+        )
+        raise InvalidComponent(Fault(f"{rule}, for a model with it.", place))
+    own = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef) and node.name.startswith("test_")]
+    if not any(
+        node.name not in _WRITTEN and any(isinstance(n, ast.Assert | ast.Call) for n in ast.walk(node)) for node in own
+    ):
+        rule = "these are only the tests that gaitsim library new writes; add one of the physics"
+        raise InvalidComponent(Fault(f"{rule}, such as a force that the paper has for a length.", place))
+    return text.replace(_BESIDE, f'Path(__file__).parents[2] / "{request.target.resolve().name}"')
+
+
+def _files(request: Request, component: ComponentFile, test: str) -> dict[Path, str]:
+    """What the library gets: the component, its test, and what of its kind and its sources is not there yet."""
+    kind, target = component.kind, request.target
+    files = {target / kind / component.path.name: component.path.read_text(encoding="utf-8")}
+    files[target.resolve().parent / "tests" / "library" / request.test.name] = test
+    if Library(_behind(target)).contract(kind) is None:
+        files[target / kind / KIND] = (request.source / kind / KIND).read_text(encoding="utf-8")
+    for name in imported_names(component.source) if component.path.suffix == ".py" else ():
+        own = request.source / kind / f"{name}.py"
+        if own.is_file():
+            files[target / kind / own.name] = own.read_text(encoding="utf-8")
+    cited = {key for one in component.parameters.values() for key in keys_of(one.source)}
+    lacking = cited - set(read_bibliography(_behind(target)))
+    if lacking:
+        mine, there = read_bibliography((request.source,)), target / FILE
+        before = there.read_text(encoding="utf-8").rstrip() + "\n\n" if there.is_file() else ""
+        files[there] = before + "\n\n".join(mine[key] for key in sorted(lacking)) + "\n"
+    return files
+
+
+def _taken(request: Request, files: Map[Path, str]) -> bool:
+    """Whether a component of this name is there already. Errors: Usage if it may not be replaced."""
+    known = Library(_behind(request.target)).file(request.reference)
+    for path, text in files.items():
+        other = path.is_file() and path.name != FILE and path.read_text(encoding="utf-8") != text
+        if other and not request.replace:
+            rule = "this is there already and is never written over unasked"
+            raise Usage(f"{shown(path)}: {rule}; choose another name, or use --replace.")
+    if known is not None and not request.replace:
+        rule = f"{request.reference} is there already ({shown(known)})"
+        raise Usage(f"{rule}; choose another name, or use --replace, which runs all its users first.")
+    return known is not None
+
+
+def _stage(stage: Path, request: Request, files: Map[Path, str]) -> None:
+    """A copy of the library with the new files, and its tests' folder beside it."""
+    if request.target.is_dir():
+        shutil.copytree(request.target, stage, ignore=shutil.ignore_patterns("__pycache__"))
+    for path, text in files.items():
+        inner = path.relative_to(request.target) if path.is_relative_to(request.target) else None
+        place = stage / inner if inner else stage.parent / "tests" / "library" / path.name
+        place.parent.mkdir(parents=True, exist_ok=True)
+        place.write_text(text, encoding="utf-8")
+
+
+def _run_test(staged: Path, own: Path) -> None:
+    """Errors: InvalidComponent if the test fails, Usage without pytest."""
+    if importlib.util.find_spec("pytest") is None:
+        raise Usage("promoting a component runs its test with pytest, which is not installed: pip install pytest")
+    words = [
+        sys.executable,
+        "-m",
+        "pytest",
+        "-q",
+        "-p",
+        "no:cacheprovider",
+        "--rootdir",
+        str(staged.parent),
+        str(staged),
+    ]
+    ran = subprocess.run(words, cwd=staged.parent, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    if ran.returncode:
+        told = "\n".join(f"{ran.stdout}\n{ran.stderr}".strip().splitlines()[-_LINES:])
+        rule = "this test does not pass beside the library, so nothing was promoted; correct it, or the component"
+        raise InvalidComponent(Fault(f"{rule}:\n{told}", Mark(shown(own))))
+
+
+def _users(request: Request, stage: Path, listener: Listener) -> tuple[Tested, ...]:
+    """What the new version does to the users of the one that is there."""
+    scope = Scope(request.scope.words, request.scope.results, (stage, *request.scope.folders))
+    return tuple(tested(request.reference, scope, False, listener))
+
+
+def _write(request: Request, files: Map[Path, str]) -> None:
+    """Write all files, or none. Errors: CannotSave."""
+    before = {path: path.read_text(encoding="utf-8") if path.is_file() else None for path in files}
+    done: list[Path] = []
+    try:
+        for path, text in files.items():
+            path.parent.mkdir(parents=True, exist_ok=True)
+            write_whole(path, text)
+            done.append(path)
+    except OSError as error:
+        for path in done:
+            old = before[path]
+            path.unlink() if old is None else write_whole(path, old)
+        rule = f"the library cannot be written ({error.strerror or error})"
+        raise CannotSave(f"{request.target}: {rule}; nothing was changed. Make room or rights there.") from error
+
+
+def _removed(request: Request, component: ComponentFile) -> tuple[Path, ...]:
+    """The files of the project that now lie in the library; they stay where its specs do not see that."""
+    seen = {folder.resolve() for folder in library_folders(request.source.parent / "spec.yaml")}
+    if request.target.resolve() not in seen:
+        return ()
+    for path in (component.path, request.test):
+        path.unlink()
+    return component.path, request.test
