@@ -10,8 +10,9 @@ class HuntCrossley(Component):
     Friction: F (min(v/v_t, 1) (mu_d + 2 (mu_s - mu_d) / (1 + (v/v_t)^2)) + mu_v v). The smooth law blends contact in
     and out with hyperbolic tangents; it has a small force above the ground too.
 
-    Its velocity terms are solved for the velocity at the end of the step. The forces that go out are those
-    that acted in the step before.
+    Its velocity terms are solved for the velocity at the end of the step. The forces that go out are those of this
+    instant. A velocity of semi-implicit steps is that of half a step ago, so the normal force takes it half a step
+    further. What really acted goes out as well, for the balance of energy.
     """
 
     frame = Attachment("The center of the sphere.")
@@ -79,6 +80,7 @@ class HuntCrossley(Component):
     stepped = State(levels=("no", "yes"), doc="Whether there is a step before.")
     spring_before = State("N", "Normal force without velocity, one step ago.")
     drag_before = State("N s/m", "Damping along the ground, one step ago.")
+    velocity_before = State("m/s", "Velocity of the center, one step ago.")
     position = Output("m", "Where the sphere's center is along the ground.")
     center_height = Output("m", "Height of the sphere's center.")
     velocity = Output("m/s", "Its rate.")
@@ -89,9 +91,11 @@ class HuntCrossley(Component):
     weight = Output("N", "Weight of all that moves.")
     spring = Output("N", "Normal force without velocity.")
     drag = Output("N s/m", "Damping along the ground.")
-    force = Output("N", "Force of the ground on the sphere, along the ground's normal; one step old.")
-    friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground; one step old.")
-    load = Output("1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20))
+    force = Output("N", "Force of the ground on the sphere, along the ground's normal.")
+    friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground.")
+    applied_force = Output("N", "Normal force that acted in the step before.")
+    applied_friction_force = Output("N", "Friction force that acted in the step before.")
+    load = Output("1", "Force in weights of all that moves.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, 2/5 d F at rest.")
 
@@ -99,7 +103,7 @@ class HuntCrossley(Component):
         "ms",
         "80 kg on a foot of 1.25 kg landing on its heel at 0.5 m/s: peak force within 1 %, energy lost within 0.1 % "
         "of those at 0.02 ms. With integrator: euler the limit is 0.1 ms.",
-        1,
+        2,
     )
 
     pressing = Curve(
@@ -128,17 +132,21 @@ class HuntCrossley(Component):
                 blend = blend * (0.5 + 0.5 * math.tanh(p.release_blend * going_in))
         y.spring = 4 / 3 * p.stiffness * math.sqrt(p.radius) * (depth / 2) ** 1.5 * blend
         y.energy = 0.4 * y.spring * depth
-        spring = x.spring_before if x.stepped == 1 else y.spring
-        y.force = spring * max(0.0, 1 - 1.5 * p.dissipation * y.velocity)
-        y.friction_force = -x.drag_before * y.slip_velocity
+        rate = 1.5 * p.dissipation
+        change = y.velocity - x.velocity_before if x.stepped == 1 else 0.0
+        y.force = y.spring * max(0.0, 1 - rate * (y.velocity + 0.5 * change))
         y.load = y.force / y.weight if y.weight > 0 else 0.0
         speed = abs(y.slip_velocity)
         peak = 2 * (p.static_friction - p.dynamic_friction) / (1 + (speed / p.transition_velocity) ** 2)
         y.drag = y.force * ((p.dynamic_friction + peak) / max(speed, p.transition_velocity) + p.viscous_friction)
+        y.friction_force = -y.drag * y.slip_velocity
+        y.applied_force = x.spring_before * max(0.0, 1 - rate * y.velocity)
+        y.applied_friction_force = -x.drag_before * y.slip_velocity
 
     @staticmethod
     def update(p, u, x, y, dt):
-        x.stepped, x.spring_before, x.drag_before = 1, y.spring, y.drag
+        x.stepped = 1
+        x.spring_before, x.drag_before, x.velocity_before = y.spring, y.drag, y.velocity
 
     @staticmethod
     def build(p, mj):

@@ -113,6 +113,19 @@ def test_friction_takes_what_a_sliding_foot_loses(contact: str) -> None:
     assert np.abs(found.residual).max() < 5e-3 * found.turned_over
 
 
+def test_the_balance_closes_at_the_largest_step_of_the_contact() -> None:
+    """The work is that of the forces that really acted, which at such a step differ from those that are told."""
+    text = BALL.replace("joint/vertical", "joint/planar").replace("guide.position: 0.5 m", "guide.z: 5 cm")
+    text = text.replace("guide.z: 5 cm", "guide.z: 5 cm, guide.forward_velocity: 1 m/s").replace("0.02 ms", "2 ms")
+    text = text.replace("contact/spring_damper", "contact/hunt_crossley").replace(
+        ", stiffness: 20 kN/m, damping: 0 N s/m", ""
+    )
+    found = balance(of_text(text.replace("mass: 2 kg", "mass: 80 kg")))
+    assert found is not None
+    assert found.exchanged["ground, damping"][-1] < -30
+    assert np.abs(found.residual).max() < 0.02 * found.turned_over
+
+
 @pytest.mark.parametrize(("spec", "duration"), [("hopping_geyer2003", "2 s"), ("hopping_leg_mass", "0.5 s")])
 def test_the_residual_is_an_error_of_the_step(spec: str, duration: str) -> None:
     coarse, fine = (

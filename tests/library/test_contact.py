@@ -138,11 +138,33 @@ def test_the_force_of_hertz(depth: float, mode: Mode) -> None:
 def test_friction_of_hunt_crossley(slip: float, mode: Mode) -> None:
     tables = Trial(primitive("contact/hunt_crossley"))
     tables.put({"center_height": 0.02, "weight": 800.0, "slip_velocity": slip})
-    for stage in ("output", "update", "output"):
-        assert not tables.call(stage, mode)
+    assert not tables.call("output", mode)
     ratio = abs(slip) / 0.1
     law = tables.y.force * (min(ratio, 1) * (0.8 + 0.2 / (1 + ratio**2)) + 0.6 * abs(slip))
     assert tables.y.friction_force == pytest.approx(-math.copysign(law, slip), rel=1e-12)
+
+
+@modes
+def test_what_hunt_crossley_reports_and_what_acted(mode: Mode) -> None:
+    """The force of this instant, its velocity half a step further; what acted had the velocity of the step's end."""
+    tables = Trial(primitive("contact/hunt_crossley"))
+
+    def step(height: float, velocity: float, slip: float) -> Any:
+        tables.put({"center_height": height, "velocity": velocity, "slip_velocity": slip, "weight": 800.0})
+        assert not tables.call("output", mode)
+        found = {name: getattr(tables.y, name) for name in ("spring", "drag", "force", "load", "friction_force")}
+        acted = tables.y.applied_force, tables.y.applied_friction_force
+        assert not tables.call("update", mode)
+        return found, acted
+
+    first, nothing = step(0.024, -0.4, 0.2)
+    assert nothing == (0, 0)
+    assert first["force"] == pytest.approx(first["spring"] * 1.6, rel=1e-12)
+    second, acted = step(0.0232, -0.2, 0.1)
+    assert acted == (pytest.approx(first["spring"] * 1.3), pytest.approx(-first["drag"] * 0.1))
+    assert second["force"] == pytest.approx(second["spring"] * (1 + 1.5 * 0.1), rel=1e-12)  # 0.1 m/s, half a step later
+    assert second["load"] == pytest.approx(second["force"] / 800, rel=1e-12)
+    assert second["friction_force"] == pytest.approx(-second["drag"] * 0.1, rel=1e-12)
 
 
 @modes

@@ -7,7 +7,7 @@ from components.calls import primitive
 
 from .muscle_rig import MUSCLES, SIZES, TRIALS, largest_error
 
-LIMITS = {**dict.fromkeys(MUSCLES, 0.02), "geyer2010": 0.025}  # of F_max
+LIMITS = {**dict.fromkeys(MUSCLES, 0.02), "geyer2010": 0.06}  # of F_max
 
 
 @pytest.mark.parametrize("muscle", MUSCLES)
@@ -37,6 +37,13 @@ def test_it_is_wrong_at_four_times_that_step(muscle: str) -> None:
 @pytest.mark.parametrize("trial", TRIALS)
 def test_parts_of_a_long_step_follow_path_and_activation(trial: str) -> None:
     """Twice the step in halves: stretched and released as well as in steps of a half, excited but for one instant."""
-    long, short = (largest_error(trial, "geyer2010", SIZES["HFL"], step) for step in (1e-3, 0.5e-3))
-    assert long < {"isometric": 0.023, "lift": 0.023}.get(trial, 1.1 * short)
+    long, middle, short = (largest_error(trial, "geyer2010", SIZES["HFL"], step) for step in (2e-3, 1e-3, 0.5e-3))
+    assert long < {"isometric": 0.06, "lift": 0.05}.get(trial, 1.1 * middle)
+    assert middle < 0.023
     assert short < 0.014
+
+
+@pytest.mark.slow
+def test_a_muscle_of_geyer2010_at_a_step_of_one_part() -> None:
+    errors = {(trial, size): largest_error(trial, "geyer2010", SIZES[size], 1e-3) for trial in TRIALS for size in SIZES}
+    assert {which: error for which, error in errors.items() if error >= 0.025} == {}

@@ -21,7 +21,7 @@ FAST = {
     "pendulum_pid": "1 s",
     "hopping_geyer2003": "1 s",
     "hopping_leg_mass": "0.5 s",
-    "walking_geyer2010": "0.2 s",
+    "walking_geyer2010": "0.3 s",
     "walking_geyer2010_mujoco_contact": "0.1 s",
 }
 RUNS: list[tuple[Path, Settings]] = [

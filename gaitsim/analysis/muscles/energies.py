@@ -83,15 +83,32 @@ def _of_part(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, F
         energy = signal[f"{own}.energy"]
         if "height" not in part.type.outputs:
             return {own: energy}, {}
-        lost = work_done(-signal[f"{own}.force"], signal[f"{own}.height"]) + energy - energy[:1]
-        if "slip_velocity" in part.type.outputs:
-            lost = lost + _integral(signal[f"{own}.friction_force"] * signal[f"{own}.slip_velocity"], replay.times)
-        return {own: energy}, {f"{own}, damping": lost}
+        return {own: energy}, {f"{own}, damping": _work_of_contact(replay, part) + energy - energy[:1]}
     if part.type.kind == "constraint":
         return {own: signal[f"{own}.energy"]}, {}
     if part.type.kind == "joint":
         return _of_joint(replay, part)
     return {}, {}
+
+
+def _work_of_contact(replay: Replay, part: Part) -> Floats:
+    own, signal, times = part.address, replay.trajectory, replay.times
+    if "applied_force" in part.type.outputs:
+        return _applied(replay, f"{own}.applied_force", f"{own}.velocity") + _applied(
+            replay, f"{own}.applied_friction_force", f"{own}.slip_velocity"
+        )
+    done = work_done(-signal[f"{own}.force"], signal[f"{own}.height"])
+    if "slip_velocity" in part.type.outputs:
+        done = done + _integral(signal[f"{own}.friction_force"] * signal[f"{own}.slip_velocity"], times)
+    return done
+
+
+def _applied(replay: Replay, force: str, velocity: str) -> Floats:
+    """Work of a force that was constant within each step, which is told at the end of the step."""
+    signal = replay.trajectory
+    rate = signal[velocity]
+    steps = signal[force][1:] * 0.5 * (rate[1:] + rate[:-1]) * np.diff(replay.times)
+    return np.concatenate([np.zeros(min(1, len(rate))), np.cumsum(steps)])
 
 
 def _of_joint(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, Floats]]:
