@@ -86,7 +86,7 @@ def compared(
     if figures:
         products.folder = writable(folder or _folder(second, labels[0]))
         products.draw(overlaid_figures(replays), ["png"])
-    return Comparison(labels, changes, _metrics(replays), _gait(replays), replays, products)
+    return Comparison(labels, changes, _metrics(replays), gait_pairs(replays), replays, products)
 
 
 def _labels(first: Path, second: Path) -> tuple[str, str]:
@@ -119,14 +119,15 @@ def _metrics(replays: Sequence[Replay]) -> list[Pair]:
     return [*found, *([_pair("score", "1", scores)] if any(scores) else [])]
 
 
-def _gait(replays: Sequence[Replay]) -> list[Pair]:
-    """Means over the strides of both legs."""
-    from gaitsim.analysis.gait.numbers import gait_numbers
+def gait_pairs(replays: Sequence[Replay]) -> list[Pair]:
+    """Means over the strides of both legs; nothing unless both walk."""
+    from gaitsim.analysis.gait.changes import gait_changes
 
-    found = [{name: row for name, row in gait_numbers(replay).items() if "mean" in row} for replay in replays]
-    units = {name: str(row["unit"]) for rows in found for name, row in rows.items()}
-    means = [{name: math.nan if row["mean"] is None else row["mean"] for name, row in rows.items()} for rows in found]
-    return [_pair(name, unit, means) for name, unit in units.items()]
+    rows = gait_changes(replays)
+    means = [
+        {n: math.nan if (v := row["values"].get(r.label)) is None else v for n, row in rows.items()} for r in replays
+    ]
+    return [_pair(name, str(row["unit"]), means) for name, row in rows.items()]
 
 
 def _pair(name: str, unit: str, rows: Sequence[Mapping[str, float]]) -> Pair:

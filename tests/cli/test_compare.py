@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from gaitsim.components.find import shipped_specs
+from gaitsim.study.comparison import gait_pairs
+from tests.analysis.replays import cut
+from tests.analysis.walking import bent, walk
 
 from .commands import gaitsim
 
@@ -79,6 +83,14 @@ def test_code_that_was_edited_is_named(capsys: Capture) -> None:
     (change,) = compared(capsys, one, "hop.yaml", "--no-figures", "--folder", "x")["changes"][:1]
     assert (change["what"], change["where"]) == ("code", "muscle/geyer2003.py")
     assert change["second"].endswith("(+2 -0 lines)")
+
+
+def test_the_gaits_of_two_walkers() -> None:
+    pairs = {pair.name: pair for pair in gait_pairs([bent("bob", 40), bent("alice", 60)])}
+    knee = pairs["knee_flexion_highest"]
+    assert (knee.unit, knee.difference, knee.percent) == ("deg", pytest.approx(20, abs=0.1), pytest.approx(50, abs=0.3))
+    assert pairs["step_length"].difference == 0
+    assert gait_pairs([bent("bob", 40), replace(cut(walk({}), 400), label="fallen")]) == []
 
 
 def test_what_cannot_be_compared_is_told(capsys: Capture) -> None:
