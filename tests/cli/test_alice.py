@@ -1,4 +1,4 @@
-"""Alice's story, through the command line only: Bob's result, a prototype of hers, a brief search, a comparison."""
+"""Alice's story, through the command line only: Bob's result, a prototype of hers, a search, into the library."""
 
 from __future__ import annotations
 
@@ -20,6 +20,23 @@ parts:
     use: controller/my_reflex
     threshold: {value: 0.02, tune: [0, 0.1]}
 """
+PHYSICS = '''
+"""controller/my_reflex: silent below its threshold, proportional to the signal above it."""
+
+from pathlib import Path
+
+from gaitsim.components.find import Library, shipped_folder
+from gaitsim.simulation.trial import Trial
+
+LIBRARY = Library((Path(__file__).parents[1] / "components", shipped_folder()))
+
+
+def test_it_grows_with_the_signal_above_its_threshold() -> None:
+    numbers = {"gain": 4, "threshold": 0.02, "bias": 0.01, "signal": 0.52, "gate": 1}
+    made = Trial(LIBRARY.find("controller/my_reflex")).put(numbers)
+    assert not made.call("output", "normal")
+    assert abs(made.y.stimulation - 2.01) < 1e-12
+'''
 
 
 def test_alices_story(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
@@ -77,5 +94,21 @@ def test_alices_story(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: p
     assert gaitsim(capsys, "results", "verify", brought["result"]).code == 3
     assert told("results", "verify", brought["result"], "--trust")["status"] == "reproduced"
 
-    # Old results can be revisited.
-    assert told("results", "verify", bobs["result"])["status"] == "reproduced"
+    # It is validated: her component moves into the library of the lab, and every project finds it there.
+    monkeypatch.setenv("GAITSIM_STATE", str(tmp_path / "state"))
+    Path("projects/alice/tests/test_my_reflex.py").write_text(PHYSICS, encoding="utf-8")
+    does("library", "promote", "controller/my_reflex", "--from", "projects/alice")
+    for spec in ("alice", "bob"):
+        if spec == "bob":
+            text = Path("projects/bob/bob.yaml").read_text(encoding="utf-8")
+            Path("projects/bob/bob.yaml").write_text(f"{text}parts: {{feedback: {{use: controller/my_reflex}}}}\n")
+        tree = told("show", f"projects/{spec}/{spec}.yaml")["tree"]
+        assert next(row["library"] for row in tree if row["address"] == "feedback") == "lab"
+
+    users = gaitsim(capsys, "library", "used-by", "controller/my_reflex", "--json")
+    assert {row["name"] for row in json.loads(users.out)["users"]} >= {"projects/alice/alice.yaml", alices}
+    assert "project.yaml" not in users.err
+
+    # Old results can be revisited for ever.
+    for result in (bobs["result"], alices):
+        assert told("results", "verify", result)["status"] == "reproduced"
