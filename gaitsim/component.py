@@ -6,6 +6,7 @@ ports, states and parts; its static functions say what happens:
     start(p, u, x)           states once the whole model is posed
     output(p, u, x, y)       outputs of this instant
     update(p, u, x, y, dt)   states of the next instant; all inputs are of this instant
+    reset(p, u, x, y, t)     states after an event: the instant t at which the output `guard` rose through 0
     finish(p, x, m)          metrics after the run (measures)
     build(p, mj)             bodies, joints, tendons ... in MuJoCo (physical parts)
 

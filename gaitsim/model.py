@@ -101,6 +101,11 @@ class Part:
         named = (*self.points.values(), *self.places.values())
         return tuple(number for places in named for place in places for number in place.at)
 
+    @property
+    def guarded(self) -> bool:
+        """Whether it has events."""
+        return "reset" in self.type.functions
+
 
 @dataclass(frozen=True)
 class Group:

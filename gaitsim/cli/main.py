@@ -17,6 +17,7 @@ from gaitsim.cli import (
     check,
     cite,
     console,
+    cycle,
     library,
     library_promote,
     library_uses,
@@ -44,6 +45,7 @@ app = typer.Typer(
 app.command("run")(run.run)
 app.command("optimize")(optimize.optimize)
 app.command("limit")(limit.limit)
+app.command("cycle")(cycle.cycle)
 app.command("analyze")(analyze.analyze)
 app.command("view")(view.view)
 app.command("profile")(profile.profile)

@@ -21,8 +21,8 @@ from gaitsim.components.checks.shared import builtins_with
 from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Fault, InvalidComponent, Mark
 
-START, OUTPUT, UPDATE = 0, 1, 2
-STAGES = {"start": START, "output": OUTPUT, "update": UPDATE}
+START, OUTPUT, UPDATE, RESET = 0, 1, 2, 3
+STAGES = {"start": START, "output": OUTPUT, "update": UPDATE, "reset": RESET}
 
 _OPTIONS = {"error_model": "numpy", "boundscheck": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 _FOOTER = """
@@ -53,6 +53,7 @@ _ARGUMENTS = {
     "start": "parameters, inputs, states",
     "output": "parameters, inputs, states, outputs",
     "update": "parameters, inputs, states, outputs, dt",
+    "reset": "parameters, inputs, states, outputs, dt",  # the last number is the time then
 }
 # numba's way to call: where the result goes, where an exception goes; what comes back is 0 unless it raised.
 _ALONE = """

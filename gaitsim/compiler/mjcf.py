@@ -33,14 +33,15 @@ AFTER_VELOCITIES = int(mujoco.mjtStage.mjSTAGE_VEL)  # what mj_step1 has done wh
 class Assembly:
     """A MuJoCo model and the ties between it and the ports of parts: (part's index, tie).
 
-    Constants are what parts read of the compiled model; they lie in MuJoCo's userdata. Drawings are
-    what parts want to be seen beside their bodies.
+    Resets are what events set. Constants are what parts read of the compiled model; they lie in MuJoCo's
+    userdata. Drawings are what parts want to be seen beside their bodies.
     """
 
     spec: Any
     model: Any
     reads: tuple[tuple[int, Tie], ...]
     applies: tuple[tuple[int, Tie], ...]
+    resets: tuple[tuple[int, Tie], ...]
     constants: tuple[float, ...]
     drawings: tuple[tuple[int, DrawnLine | DrawnForce], ...]
     touching: tuple[Touching, ...]
@@ -111,6 +112,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
         compiled,
         tuple(made.reads),
         tuple(made.applies),
+        tuple(made.resets),
         tuple(of(compiled) for of in made.constants),
         tuple(made.drawings),
         tuple(made.touching),
@@ -126,11 +128,20 @@ def _integrator(model: Model, compiled: Any) -> Any:
     """
     chosen = model.simulate.integrator
     damped = compiled.actuator_gainprm[:, 2].nonzero()[0]
-    if chosen == "rk4" and damped.size:
+    guarded = next((part for part in model.parts if part.guarded), None)
+    if guarded and chosen not in ("automatic", "rk4"):
+        rule = f"its events are located by Runge-Kutta steps, not by integrator: {chosen}; choose automatic"
+        raise InvalidSpec(Fault(f"{rule}.", guarded.mark, guarded.address))
+    if (chosen == "rk4" or guarded) and damped.size:
         address = compiled.actuator(int(damped[0])).name.rpartition(".")[0]
         mark = next(part.mark for part in model.parts if part.address == address)
         rule = "its velocity terms need an implicit scheme, and integrator: rk4 is explicit; choose automatic."
+        if guarded:
+            rule = f"its velocity terms need an implicit scheme, and the events of {guarded.address} explicit steps"
+            rule += "; use another part for one of them."
         raise InvalidSpec(Fault(rule, mark, address))
+    if guarded:  # `events` steps by itself
+        return _INTEGRATORS["euler"]
     if chosen != "automatic":
         return _INTEGRATORS[chosen]
     if not damped.size:

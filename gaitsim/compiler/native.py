@@ -8,6 +8,9 @@ COMPLETED, SUSPECT, DIVERGED, STOPPED = 0, 1, 2, 3
 # Tables of states and outputs have a multiple of this many numbers, so that they are checked by the dozen.
 PADDING = 32
 
+# Of steps with events: how many one step may have, and how often it is halved to locate one.
+EVENTS, HALVINGS = 64, 44
+
 # What functions are given, each an integer, a number (a double), a pointer to a table of its own, or a pointer
 # into what others reach as well. First what all of a step get: its number and length, the tables, and the past
 # of delayed signals: rows of one number for each line, a power of two of them, and each line's delay in steps.

@@ -7,9 +7,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 
-from gaitsim.compiler.kernel import Kernel, kernel_of
+from gaitsim.compiler.kernel import STAGES, Kernel, kernel_of
 from gaitsim.compiler.mjcf import Assembly
 from gaitsim.compiler.program import Program
+from gaitsim.components.checks.check import GUARD
 from gaitsim.components.primitive import Primitive
 from gaitsim.model import Part
 
@@ -47,7 +48,8 @@ class Plan:
     their own besides. lines: the output that each delay line keeps. signals: what is recorded, a place in the
     outputs or behind them in the states. reads: an output and whether it may change after the start, for each number
     read of MuJoCo. writes: (an output? its place, sign) for each number written there. coordinates: how many
-    positions and velocities MuJoCo has. runge_kutta: whether MuJoCo steps by rk4.
+    positions and velocities MuJoCo has. runge_kutta: whether MuJoCo steps by rk4. guards: parts with events, and
+    the output that rises through 0 then. resets: what events set, as of `writes`, and the same of when they do.
     """
 
     pieces: tuple[Piece, ...]
@@ -64,6 +66,8 @@ class Plan:
     runge_kutta: bool
     states: int
     outputs: int
+    guards: tuple[tuple[int, int], ...]
+    resets: tuple[tuple[tuple[bool, int], tuple[bool, int]], ...]
 
 
 def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kernel]]:
@@ -71,16 +75,17 @@ def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kerne
     parts = program.model.parts
     kernels = [kernel_of(part.type) for part in parts]
     reads = [(program.outputs.place(i, tie.port), tie.field != "userdata") for i, tie in assembly.reads]
-    writes = []
-    for i, tie in assembly.applies:
-        of_outputs = tie.port in parts[i].type.outputs
-        table = program.outputs if of_outputs else program.inputs
-        writes.append((of_outputs, table.place(i, tie.port), tie.sign))
+
+    def sent(part: int, port: str) -> tuple[bool, int]:
+        of_outputs = port in parts[part].type.outputs
+        return of_outputs, (program.outputs if of_outputs else program.inputs).place(part, port)
+
+    writes = [(*sent(i, tie.port), tie.sign) for i, tie in assembly.applies]
     fixed = _constant_parts(program, {i for i, tie in assembly.reads if tie.field != "userdata"})
     pieces = tuple(
         Piece(
             kernel.name,
-            tuple(stage for stage in ("start", "output", "update") if stage in part.type.functions),
+            tuple(stage for stage in STAGES if stage in part.type.functions),
             int(program.parameters.offsets[i]),
             program.inputs.span(i),
             program.states.span(i),
@@ -104,6 +109,8 @@ def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kerne
         assembly.runge_kutta,
         program.states.size,
         program.outputs.size,
+        tuple((i, program.outputs.place(i, GUARD)) for i in program.guarded),
+        tuple((sent(i, tie.port), sent(i, tie.when)) for i, tie in assembly.resets),
     )
     return plan, {kernel.name: kernel for kernel in kernels}
 
@@ -116,7 +123,7 @@ def _constant_parts(program: Program, moved: set[int]) -> set[int]:
     found: set[int] = set()
     for call in program.calls:
         part = program.model.parts[call.part]
-        if call.last and call.part not in moved and "update" not in part.type.functions:
+        if call.last and call.part not in moved and not {"update", "reset"} & part.type.functions:
             slots = [program.inputs.place(call.part, name) for name in _read(part)]
             senders = [sender for slot in slots for sender in program.senders[slot]]
             if all(line < 0 and program.part_of_output(source) in found for source, line in senders):

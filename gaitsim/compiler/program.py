@@ -142,6 +142,11 @@ class Program:
         return tuple(i for i, p in enumerate(self.model.parts) if "update" in p.type.functions)
 
     @cached_property
+    def guarded(self) -> tuple[int, ...]:
+        """Parts with events."""
+        return tuple(i for i, p in enumerate(self.model.parts) if p.guarded)
+
+    @cached_property
     def stops(self) -> tuple[int, ...]:
         """Parts that may end the run."""
         return tuple(i for i, p in enumerate(self.model.parts) if p.measure and "stop" in p.type.outputs)

@@ -15,6 +15,7 @@ from typing import Any
 
 from llvmlite import ir
 
+from gaitsim.compiler.events import Events
 from gaitsim.compiler.kernel import STAGES
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES
 from gaitsim.compiler.native import COMPLETED, DIVERGED, FRAME, PADDING, RUN, START, STOPPED, SUSPECT, padded
@@ -284,22 +285,8 @@ class Translation:
 
     def _one_step(self, f: Writer) -> None:
         b, plan = f.builder, self.plan
-        with self._timed(f, "first half"):
-            b.call(self._external("mj_step1", NOTHING, [POINTER, POINTER]), [f.model, f.data])
-        for i, (place, moves) in enumerate(plan.reads):
-            if moves:
-                self._read(f, i, place)
-        frame, nowhere = [f.arguments[word] for word in FRAME], ir.Constant(POINTER, None)
-        for chunk in self._chunks("outputs", plan.calls, _OUTPUTS, self._output):
-            given = [*frame, nowhere, nowhere, INTEGER(0), FLAG(0), FLAG(1)]
-            self._end_unless(f, b.call(chunk, given, attrs=("noinline",)), SUSPECT)
-        self._end_unless(f, self._table_is_finite(f, f.outputs, plan.outputs), SUSPECT)
-        for i, (of_outputs, place, sign) in enumerate(plan.writes):
-            value = f.load(f.outputs, place) if of_outputs else self._arriving(f, place)
-            value = b.fmul(value, DOUBLE(sign))
-            if plan.runge_kutta:
-                value = self._carried_on(f, i, value)
-            b.store(value, f.load(f.ties, len(plan.reads) + i, POINTER))
+        self._look(f, lambda good, status: self._end_unless(f, good, status))
+        self._write(f)
         row = self._row(f, f.step)
         for line, source in enumerate(plan.lines):
             f.store(f.load(f.outputs, source), row, line)
@@ -307,6 +294,7 @@ class Translation:
         for i, place in enumerate(plan.stops):
             running = b.fcmp_ordered("<=", f.load(f.outputs, place), DOUBLE(0.5))
             self._end_unless(f, running, STOPPED + i)
+        frame = [f.arguments[word] for word in FRAME]
         for chunk in self._chunks("updates", plan.updates, FRAME, self._update):
             self._end_unless(f, b.call(chunk, frame, attrs=("noinline",)), SUSPECT)
         self._end_unless(f, self._table_is_finite(f, f.states, plan.states), SUSPECT)
@@ -317,6 +305,30 @@ class Translation:
         followed = b.call(self.names["bounded"], [f.qvel, INTEGER(velocities), f.fastest], attrs=("noinline",))
         self._end_unless(f, b.and_(finite, followed), DIVERGED)
 
+    def _look(self, f: Writer, unless: Callable[[Any, int], None]) -> None:
+        """All outputs at the present positions and velocities of MuJoCo."""
+        b, plan = f.builder, self.plan
+        with self._timed(f, "first half"):
+            b.call(self._external("mj_step1", NOTHING, [POINTER, POINTER]), [f.model, f.data])
+        for i, (place, moves) in enumerate(plan.reads):
+            if moves:
+                self._read(f, i, place)
+        frame, nowhere = [f.arguments[word] for word in FRAME], ir.Constant(POINTER, None)
+        for chunk in self._chunks("outputs", plan.calls, _OUTPUTS, self._output):
+            given = [*frame, nowhere, nowhere, INTEGER(0), FLAG(0), FLAG(1)]
+            unless(b.call(chunk, given, attrs=("noinline",)), SUSPECT)
+        unless(self._table_is_finite(f, f.outputs, plan.outputs), SUSPECT)
+
+    def _write(self, f: Writer) -> None:
+        """Forces and controls, into MuJoCo."""
+        b, plan = f.builder, self.plan
+        for i, (of_outputs, place, sign) in enumerate(plan.writes):
+            value = f.load(f.outputs, place) if of_outputs else self._arriving(f, place)
+            value = b.fmul(value, DOUBLE(sign))
+            if plan.runge_kutta:
+                value = self._carried_on(f, i, value)
+            b.store(value, f.load(f.ties, len(plan.reads) + i, POINTER))
+
     def _carried_on(self, f: Writer, number: int, value: Any) -> Any:
         """A value that is written, carried on to the middle of the step; before the first step it was the same."""
         b, before = f.builder, f.load(f.written, number)
@@ -326,6 +338,9 @@ class Translation:
 
     def _advance(self, f: Writer) -> None:
         """The second half of MuJoCo's step."""
+        if self.plan.guards:
+            self._end_unless(f, Events(self).advance(f), SUSPECT)
+            return
         if not self.plan.runge_kutta:
             f.builder.call(self._external("mj_step2", NOTHING, [POINTER, POINTER]), [f.model, f.data])
             return

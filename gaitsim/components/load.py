@@ -20,7 +20,7 @@ from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Fault, InvalidComponent, Mark, did_you_mean
 from gaitsim.text.expression import BadExpression, parse_expression
 
-FUNCTIONS = ("start", "output", "update", "finish", "build")
+FUNCTIONS = ("start", "output", "update", "reset", "finish", "build")
 
 
 def digest_of(text: str) -> str:

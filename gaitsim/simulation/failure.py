@@ -6,6 +6,7 @@ import traceback
 
 import numpy as np
 
+from gaitsim.compiler.native import EVENTS
 from gaitsim.compiler.program import Floats, Program
 from gaitsim.model import Part
 from gaitsim.simulation.view import View, views
@@ -67,6 +68,13 @@ def _origin(program: Program, slots: list[int], u: Floats, y: Floats) -> int | N
         if found is not None:
             return found
     return None
+
+
+def of_events(program: Program, parts: list[int], step: int) -> str:
+    """Events without end: after each, the next follows at once."""
+    who = " and ".join(_who(program, part) for part in parts)
+    rule = f"{who} has {EVENTS} events within one step at {_when(program, step)}"
+    return f"{rule}; let its guard be below 0 for a while after a reset"
 
 
 def of_mechanics(program: Program, wrong: list[str], step: int) -> str:

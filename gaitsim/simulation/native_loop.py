@@ -15,10 +15,11 @@ from gaitsim.compiler.mjcf import Assembly, tie_place
 from gaitsim.compiler.plan import plan_of
 from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
 from gaitsim.compiler.workshop import compiled
+from gaitsim.simulation.events import Failed
 from gaitsim.simulation.failure import of_nothing_found
 from gaitsim.simulation.loop_result import LoopResult
 from gaitsim.simulation.physics import Physics
-from gaitsim.simulation.python_loop import Checked, Failed
+from gaitsim.simulation.python_loop import Checked
 from gaitsim.simulation.tables import Tables
 from gaitsim.simulation.threads import interruptible
 
@@ -169,16 +170,16 @@ class NativeLoop:
         """
         assembly = self.physics.assembly
         if self._tied is None or self._tied[0] is not assembly:
-            shape = (assembly.reads, assembly.applies, assembly.model.nq, assembly.model.nv)
+            ties = (assembly.reads, assembly.applies, assembly.resets)
+            shape = (*ties, assembly.model.nq, assembly.model.nv)
             if shape not in self._natives:
                 self._natives[shape] = _Native.of(compiled(*plan_of(self.program, assembly), self.timed))
             self._tied = assembly, self._natives[shape], self._addresses()
         return self._tied[1:]
 
     def _addresses(self) -> Integers:
-        physics, ties = self.physics, (*self.physics.assembly.reads, *self.physics.assembly.applies)
+        physics, assembly = self.physics, self.physics.assembly
+        ties = (*assembly.reads, *assembly.applies, *assembly.resets)
         arrays = {tie.field: physics.array(tie.field) for _, tie in ties}
-        return np.array(
-            [arrays[t.field].ctypes.data + arrays[t.field].itemsize * tie_place(physics.model, t) for _, t in ties],
-            dtype=np.int64,
-        )
+        places = [arrays[t.field].ctypes.data + arrays[t.field].itemsize * tie_place(physics.model, t) for _, t in ties]
+        return np.array([*places, physics.array("qacc").ctypes.data], dtype=np.int64)

@@ -15,18 +15,16 @@ from typing import Any
 import mujoco
 import numpy as np
 
+from gaitsim.compiler.kernel import STAGES
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES, tie_place
 from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
 from gaitsim.components.load import function_of
+from gaitsim.simulation.events import Failed, advance
 from gaitsim.simulation.failure import of_exception, of_values
 from gaitsim.simulation.loop_result import LoopResult
 from gaitsim.simulation.physics import Physics
 from gaitsim.simulation.tables import Tables
-from gaitsim.simulation.view import View, views
-
-
-class Failed(Exception):
-    """A component failed; the text says which and why."""
+from gaitsim.simulation.view import views
 
 
 @dataclass
@@ -120,12 +118,19 @@ class Checked:
 
         Errors: Failed.
         """
+        self.look(step)
+        self.apply(step)
+        past = self.tables.past
+        past[step % len(past)] = [self.tables.y[delay.source] for delay in self.program.delays]
+
+    def look(self, step: int) -> None:
+        """All outputs at the present positions and velocities of MuJoCo.
+
+        Errors: Failed.
+        """
         mujoco.mj_step1(self.physics.model, self.physics.data)
         self._read()
         self._outputs(step)
-        self._apply(step)
-        past = self.tables.past
-        past[step % len(past)] = [self.tables.y[delay.source] for delay in self.program.delays]
 
     @property
     def stopper(self) -> int | None:
@@ -139,9 +144,9 @@ class Checked:
         Errors: Failed.
         """
         for part in self.program.updates:
-            self._gather(part, step)
-            self._call(part, "update", step)
-        self._advance()
+            self.gather(part, step)
+            self.call(part, "update", step)
+        self._advance(step)
 
     def _fill_delays(self) -> None:
         """Before the start, a delayed signal was what it is at the start."""
@@ -151,20 +156,23 @@ class Checked:
     def _outputs(self, step: int, starting: bool = False, lenient: bool = False) -> None:
         """Call every `output` in order, at the start after `start`; lenient calls may fail."""
         for call in self.program.calls:
-            self._gather(call.part, step)
+            self.gather(call.part, step)
             with contextlib.suppress(Failed) if lenient else contextlib.nullcontext():
                 if starting and call.last:
-                    self._call(call.part, "start", step)
-                self._call(call.part, "output", step, check=call.last)
+                    self.call(call.part, "start", step)
+                self.call(call.part, "output", step, check=call.last)
 
-    def _call(self, part: int, stage: str, step: int, check: bool = True) -> None:
-        """Call one function of a part; what it raises or leaves not finite ends the run."""
+    def call(self, part: int, stage: str, step: int, check: bool = True, time: float | None = None) -> None:
+        """Call one function of a part; what it raises or leaves not finite ends the run.
+
+        time: of `reset`, the instant of its event.
+        """
         function = self.functions[part].get(stage)
         p, u, x, y = self.views[part]
         if function is not None:
-            arguments = {"start": (p, u, x), "output": (p, u, x, y), "update": (p, u, x, y, self.dt)}
+            arguments = {"start": (p, u, x), "output": (p, u, x, y)}
             try:
-                function(*arguments[stage])
+                function(*arguments.get(stage, (p, u, x, y, self.dt if time is None else time)))
             except BdbQuit:
                 raise KeyboardInterrupt from None  # a debugger's quit ends the command, not this candidate
             except Exception as error:
@@ -181,7 +189,7 @@ class Checked:
         span = layout.span(part)
         return bool(np.all(np.isfinite(table[span.start : span.stop])))
 
-    def _gather(self, part: int, step: int) -> None:
+    def gather(self, part: int, step: int) -> None:
         """Sum what arrives at a part's inputs."""
         for slot in self.slots[part]:
             value = self.tables.base[slot]
@@ -201,11 +209,12 @@ class Checked:
             value = self.physics.array(tie.field)[tie_place(self.physics.model, tie)]
             self.tables.y[self.program.outputs.place(part, tie.port)] = value
 
-    def _apply(self, step: int) -> None:
+    def apply(self, step: int) -> None:
+        """Forces and controls, into MuJoCo."""
         for part in self.physics.appliers:
-            self._gather(part, step)
+            self.gather(part, step)
         for k, (part, tie) in enumerate(self.physics.assembly.applies):
-            value = tie.sign * getattr(self._sender(part, tie.port), tie.port)
+            value = tie.sign * self.sent(part, tie.port)
             if self.physics.assembly.runge_kutta:
                 value = self._carried_on(k, value)
             self.physics.array(tie.field)[tie_place(self.physics.model, tie)] = value
@@ -216,20 +225,23 @@ class Checked:
         self.tables.written[number] = value
         return value if np.isnan(before) else 1.5 * value - 0.5 * before
 
-    def _advance(self) -> None:
+    def _advance(self, step: int) -> None:
         """The second half of MuJoCo's step."""
         model, data = self.physics.model, self.physics.data
-        if self.physics.assembly.runge_kutta:
+        if self.program.guarded:
+            advance(self, step)
+        elif self.physics.assembly.runge_kutta:
             mujoco.mj_forwardSkip(model, data, AFTER_VELOCITIES, 0)
             mujoco.mj_RungeKutta(model, data, 4)
         else:
             mujoco.mj_step2(model, data)
 
-    def _sender(self, part: int, port: str) -> View:
+    def sent(self, part: int, port: str) -> Any:
+        """An output of a part, or what has arrived at an input."""
         _, u, _, y = self.views[part]
-        return y if port in self.program.model.parts[part].type.outputs else u
+        return getattr(y if port in self.program.model.parts[part].type.outputs else u, port)
 
     def _functions(self, part: int) -> dict[str, Callable[..., None]]:
         kind = self.program.model.parts[part].type
-        stages = {"start", "output", "update"} & kind.functions
+        stages = STAGES.keys() & kind.functions
         return {stage: function_of(kind.cls, stage) for stage in stages}

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from gaitsim.compiler.kernel import OUTPUT, START, UPDATE, address_of
+from gaitsim.compiler.kernel import STAGES, address_of
 from gaitsim.compiler.program import Floats
 from gaitsim.components.load import function_of
 from gaitsim.components.primitive import Primitive
@@ -17,7 +17,6 @@ from gaitsim.simulation.run import Mode
 from gaitsim.simulation.view import View
 from gaitsim.units import parse_unit
 
-_STAGES = {"start": START, "output": OUTPUT, "update": UPDATE}
 _C_FUNCTION = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_double)
 
 
@@ -67,13 +66,13 @@ class Trial:
         return made
 
     def call(self, stage: str, mode: Mode = "rapid", dt: float = 1e-3) -> bool:
-        """Run start, output or update in place; whether it raised."""
+        """Run start, output, update or reset in place, the last at the time dt; whether it raised."""
         if mode == "rapid":
             kernel = _C_FUNCTION(address_of(self.kind))
             pointers = [table.ctypes.data for table in self.arrays]
-            return bool(kernel(_STAGES[stage], *pointers, dt))
+            return bool(kernel(STAGES[stage], *pointers, dt))
         p, u, x, y = self.views
-        arguments = {"start": (p, u, x), "output": (p, u, x, y), "update": (p, u, x, y, dt)}[stage]
+        arguments = {"start": (p, u, x), "output": (p, u, x, y)}.get(stage, (p, u, x, y, dt))
         try:
             with np.errstate(all="ignore"):
                 function_of(self.kind.cls, stage)(*arguments)
@@ -83,5 +82,5 @@ class Trial:
 
     @property
     def stages(self) -> list[str]:
-        """Which of start, output and update the component has."""
-        return [stage for stage in _STAGES if stage in self.kind.functions]
+        """Which of start, output, update and reset the component has."""
+        return [stage for stage in STAGES if stage in self.kind.functions]

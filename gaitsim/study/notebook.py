@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from gaitsim.simulation.run import Mode
     from gaitsim.study.adoption import Adoption
     from gaitsim.study.analyses import Analysis
+    from gaitsim.study.cycles import Cycle
     from gaitsim.study.limits import Hunt
     from gaitsim.study.runs import Runs
     from gaitsim.study.soundness import Soundness
@@ -170,6 +171,41 @@ def limit(
     if hunt.keeping.error:
         raise hunt.keeping.error
     return hunt
+
+
+def cycle(
+    path: File,
+    set: Settings | None = None,
+    *,
+    mode: Mode = "rapid",
+    results: File | None = None,
+    candidate: str | None = None,
+    start: bool = False,
+    trust: bool = False,
+    library: Sequence[File] = (),
+) -> Cycle:
+    """Find the periodic gait of a model near its start, and the eigenvalues of its return map there.
+
+    Args:
+        path: A spec, or a result folder.
+        set: Values by address.
+        mode: rapid or normal.
+        results: Where names of results are looked up; None for $GAITSIM_RESULTS, or else results.
+        candidate: Of a result.
+        start: Ignore tuned values beside the spec.
+        trust: Run components of a result that this machine does not know.
+        library: More folders of components.
+
+    Returns:
+        The gait: `start`, `period`, `metrics`, `eigenvalues`, `slopes` and `stable`.
+
+    Raises:
+        GaitsimError: The spec has no section to return to, or no periodic gait is found.
+    """
+    from gaitsim.study.cycles import cycle as found
+
+    silence = Silence()
+    return found(opening(path, set, library, start, trust, candidate, results), mode, silence, silence.progress(""))
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ class Probe(Component):
     length = State("m", "Length.")
     force = Output("N", "Force.")
 """
-STATES = "x.length is assigned in output; states are set in start and update only."
+STATES = "x.length is assigned in output; states are set in start, update and reset only."
 OUTPUT = "    @staticmethod\n    def output(p, u, x, y):\n        y.force = 0\n"
 
 

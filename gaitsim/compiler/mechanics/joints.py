@@ -15,9 +15,11 @@ from gaitsim.compiler.mechanics.ties import Element
 class Joints(Making):
     """Verbs that let the child of the part move, and say where it begins."""
 
-    def slide(self, axis: Vector, suffix: str = "", damping: float = 0.0) -> Element:
-        """A translation of the child along an axis; damping in N s/m."""
-        return self._joint(mujoco.mjtJoint.mjJNT_SLIDE, self._mirrored(axis), suffix, damping)
+    def slide(self, axis: Vector, suffix: str = "", damping: float = 0.0, armature: float = 0.0) -> Element:
+        """A translation of the child along an axis; damping in N s/m, armature (kg) as of `hinge`."""
+        joint = self._joint(mujoco.mjtJoint.mjJNT_SLIDE, self._mirrored(axis), suffix, damping)
+        self.spec.joint(joint.name).armature = float(armature)
+        return joint
 
     def hinge(
         self,

@@ -17,6 +17,7 @@ class Made:
 
     reads: list[tuple[int, Tie]] = field(default_factory=list)
     applies: list[tuple[int, Tie]] = field(default_factory=list)
+    resets: list[tuple[int, Tie]] = field(default_factory=list)
     constants: list[Callable[[Any], float]] = field(default_factory=list)
     drawings: list[tuple[int, DrawnLine | DrawnForce]] = field(default_factory=list)
     touching: list[Touching] = field(default_factory=list)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Any
 
 import mujoco
@@ -45,6 +46,13 @@ class Ports(Making):
     def apply(self, port: str, element: Element, field_name: str, sign: float = 1.0) -> None:
         """Write an input or output into MuJoCo's data: qfrc_applied of a joint, ctrl of an actuator."""
         self.made.applies.append((self.index, tied(port, element, field_name, 0, sign)))
+
+    def reset(self, port: str, when: str, joint: Element, field_name: str) -> None:
+        """At an event at which the port `when` is 1, set a joint's qpos or qvel to an input or output."""
+        made = tied(port, joint, field_name, 0)
+        if field_name not in ("qpos", "qvel"):
+            raise ValueError(f"an event sets no {field_name}; name qpos or qvel of a joint")
+        self.made.resets.append((self.index, replace(made, when=when)))
 
     def _read_constant(self, port: str, of: Callable[[Any], float]) -> None:
         place = max(self.spec.nuserdata, 0)

@@ -26,13 +26,17 @@ _FIELDS = {
 
 @dataclass(frozen=True)
 class Tie:
-    """A port tied to one number of MuJoCo's data, such as qpos of a joint."""
+    """A port tied to one number of MuJoCo's data, such as qpos of a joint.
+
+    when: of what is written at events only, the port that is 1 at those that set it.
+    """
 
     port: str
     element: Element | None
     field: str
     index: int = 0
     sign: float = 1.0
+    when: str = ""
 
 
 def tied(port: str, element: Element, field_name: str, index: int, sign: float = 1.0) -> Tie:

@@ -18,6 +18,7 @@ VERBS: Mapping[str, tuple[int, tuple[type, ...], str]] = {
     "read_weight": (1, (Output,), "output"),
     "read_key": (1, (Output,), "output"),
     "read_side": (1, (Output,), "output"),
+    "reset": (2, (Input, Output), "input or output"),
     "apply": (1, (Input, Output), "input or output"),
 }
 

@@ -34,14 +34,16 @@ SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "start": ("p", "u", "x"),
     "output": ("p", "u", "x", "y"),
     "update": ("p", "u", "x", "y", "dt"),
+    "reset": ("p", "u", "x", "y", "t"),
     "finish": ("p", "x", "m"),
     "build": ("p", "mj"),
 }
+GUARD = "guard"  # the output that tells of events
 _LETTERS = {"p": Parameter, "u": Input, "x": State, "y": Output, "m": Metric}
 _SAID = {Parameter: "a parameter", Input: "an input", State: "a state", Output: "an output"}
 _SAID |= {Metric: "a metric", Points: "a list of points", Option: "an option", Series: "a series"}
 _READ_ONLY = {"p": "parameters are read only.", "u": "inputs are read only."}
-_WRITERS = {"x": ("start", "update"), "y": ("output",), "m": ("finish",)}
+_WRITERS = {"x": ("start", "update", "reset"), "y": ("output",), "m": ("finish",)}
 # numba compiles these; breakpoint only runs in plain Python, which is what it is for.
 _BUILTINS = {"abs", "min", "max", "range", "int", "float", "len", "bool", "round", "print"}
 _BUILTINS |= {"breakpoint", "ValueError", "ArithmeticError", "OverflowError", "RuntimeError"}
@@ -164,6 +166,7 @@ def check_names(
     for node in tree.body:
         if isinstance(node, ast.FunctionDef):
             check.names(node, plain=False)
+    check.guarded()
     check.never_assigned()
     return sorted(check.faults.found, key=lambda f: (f.mark.line, f.mark.column) if f.mark else ())
 
@@ -240,7 +243,7 @@ class _Check:
                     continue
                 if id(node) in written and name not in _WRITERS.get(letter, ()):
                     said = _READ_ONLY.get(letter) or (
-                        f"{_SAID[_LETTERS[letter]].split()[1]}s are set in {' and '.join(_WRITERS[letter])} only."
+                        f"{_SAID[_LETTERS[letter]].split()[1]}s are set in {_listed(_WRITERS[letter])} only."
                     )
                     self.add(f"{letter}.{node.attr} is assigned in {name}; {said}", node)
 
@@ -292,6 +295,12 @@ class _Check:
         letter = next((at for at, kind in _LETTERS.items() if isinstance(one, kind)), "")
         return f"Did you mean {letter}.{word}?" if letter else ""
 
+    def guarded(self) -> None:
+        """A function `reset` needs the output whose rise through 0 is its event."""
+        if "reset" in self.functions and not isinstance(self.known.get(GUARD), Output):
+            rule = f"reset needs an output {GUARD}, whose rise through 0 is the event; declare {GUARD} = Output(...)."
+            self.add(rule, self.functions["reset"])
+
     def never_assigned(self) -> None:
         for kind, letter, name in ((Output, "y", "output"), (Metric, "m", "finish")):
             function = self.functions.get(name)
@@ -316,6 +325,11 @@ class _Check:
             for missing in sorted(frames - (frames if made is None else made)):
                 rule = f'build never places {missing}; write mj.frame("{missing}", (x, y, z)).'
                 self.add(rule, self.places.get(missing))
+
+
+def _listed(words: Sequence[str]) -> str:
+    """Words as a sentence has them: start, update and reset."""
+    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
 def _hint(word: str, names: list[str], prefix: str) -> str:

@@ -1,0 +1,105 @@
+"""Steps with events in plain Python: Runge-Kutta steps of order 4, cut where an output `guard` rises through 0.
+
+Parts are asked for their forces in every stage, with the states that they have for this step. A guard that is below 0
+where a step begins and not below 0 where it ends has an event between; the step is taken anew from where it began, with
+a length that is halved until the event is located. `reset` then changes states, and what is tied by `mj.reset`
+coordinates; the rest of the step goes on from there. `compiler/events.py` is the same in native code.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+
+from gaitsim.compiler.mjcf import AFTER_VELOCITIES, tie_place
+from gaitsim.compiler.native import EVENTS, HALVINGS
+from gaitsim.compiler.program import Floats
+from gaitsim.components.checks.check import GUARD
+from gaitsim.simulation.failure import of_events
+
+if TYPE_CHECKING:
+    from gaitsim.simulation.python_loop import Checked
+
+_STAGES = ((0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0))  # where each begins, and the weight of its rates
+
+
+class Failed(Exception):
+    """A component failed; the text says which and why."""
+
+
+def advance(run: Checked, step: int) -> None:
+    """A whole step of the mechanics.
+
+    Errors: Failed.
+    """
+    done, data = 0.0, run.physics.data
+    risen: list[int] = []
+    for _ in range(EVENTS):
+        begin = data.qpos.copy(), data.qvel.copy()
+        before = _guards(run)
+        run.look(step)
+        risen = _risen(run, before)  # by what states have become, in an update or a reset
+        if not risen:
+            before = _guards(run)
+            low, high = 0.0, run.dt - done
+            _move(run, step, begin, high)
+            if not _risen(run, before):
+                return
+            for _ in range(HALVINGS):
+                middle = low + 0.5 * (high - low)
+                _move(run, step, begin, middle)
+                low, high = (low, middle) if _risen(run, before) else (middle, high)
+            _move(run, step, begin, high)
+            done = done + high
+            risen = _risen(run, before)
+        _reset(run, step, risen, step * run.dt + done)
+    raise Failed(of_events(run.program, risen, step))
+
+
+def _move(run: Checked, step: int, begin: tuple[Floats, Floats], span: float) -> None:
+    """On for a time from where the coordinates and rates were at the beginning; then all outputs there."""
+    model, data = run.physics.model, run.physics.data
+    position, speed = begin
+    # Not 0: the sum with a rate of -0 would lose its sign, which native code keeps.
+    velocities, accelerations = np.full_like(position, -0.0), np.full_like(speed, -0.0)
+    data.qpos[:], data.qvel[:] = begin
+    for stage, (share, weight) in enumerate(_STAGES):
+        if stage:
+            shift = share * span
+            data.qpos[:], data.qvel[:] = position + shift * data.qvel, speed + shift * data.qacc
+        run.look(step)
+        run.apply(step)
+        mujoco.mj_forwardSkip(model, data, AFTER_VELOCITIES, 0)
+        velocities += weight * data.qvel
+        accelerations += weight * data.qacc
+    sixth = span / 6.0
+    data.qpos[:], data.qvel[:] = position + sixth * velocities, speed + sixth * accelerations
+    run.look(step)
+
+
+def _guards(run: Checked) -> list[float]:
+    return [float(run.sent(part, GUARD)) for part in run.program.guarded]
+
+
+def _risen(run: Checked, before: list[float]) -> list[int]:
+    """The parts whose guards have risen through 0."""
+    guards = zip(run.program.guarded, before, _guards(run), strict=True)
+    return [part for part, earlier, now in guards if earlier < 0 <= now]
+
+
+def _reset(run: Checked, step: int, parts: list[int], time: float) -> None:
+    """What the events of this instant change: coordinates, and states of their parts."""
+    physics = run.physics
+    for part in {part for part, _ in physics.assembly.resets}:
+        run.gather(part, step)
+    sent: list[tuple[Any, Any]] = [
+        (run.sent(part, tie.port), run.sent(part, tie.when)) for part, tie in physics.assembly.resets
+    ]
+    for (_, tie), (value, when) in zip(physics.assembly.resets, sent, strict=True):
+        if when > 0.5:
+            physics.array(tie.field)[tie_place(physics.model, tie)] = value
+    for part in parts:
+        run.gather(part, step)
+        run.call(part, "reset", step, time=time)
