@@ -78,4 +78,4 @@ def test_it_compiles_to_native_code(path: Path) -> None:
     assert address_of(found) == address
     # A part that acts or remembers must have something to call.
     if found.states:
-        assert {"start", "update"} & set(stages(found))
+        assert {"start", "update", "reset"} & set(stages(found))
