@@ -21,11 +21,15 @@ Row = tuple[str, str, float, float]  # which model, what, the value to meet, our
 def hopping(height: float) -> Iterator[Row]:
     """A drop onto a spring, in closed form (Blickhan 1989)."""
     begun = time.perf_counter()
-    found = gaitsim.run(
-        SPECS / "hopping_spring_mass.yaml",
-        {"initial.guide.z": f"{1 + height} m", "simulate.duration": "3 s"},
-        save=False,
-    ).outcomes[0].metrics
+    found = (
+        gaitsim.run(
+            SPECS / "hopping_spring_mass.yaml",
+            {"initial.guide.z": f"{1 + height} m", "simulate.duration": "3 s"},
+            save=False,
+        )
+        .outcomes[0]
+        .metrics
+    )
     omega, speed = math.sqrt(20e3 / 80), math.sqrt(2 * G * height)
     ratio = speed * omega / G
     deep = 1 + math.sqrt(1 + ratio**2)

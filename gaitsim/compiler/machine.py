@@ -26,7 +26,7 @@ import numpy as np
 from gaitsim.cache import keep, kept
 
 _MUJOCO = ("mj_step1", "mj_step2", "mj_forwardSkip", "mj_RungeKutta")
-_MAKERS = ("events", "kernel", "machine", "native", "stopwatch", "translation", "workshop", "writer")
+_MAKERS = ("events", "kernel", "machine", "native", "records", "stopwatch", "translation", "workshop", "writer")
 
 
 @dataclass(frozen=True)

@@ -20,6 +20,7 @@ from gaitsim.compiler.kernel import STAGES
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES
 from gaitsim.compiler.native import COMPLETED, DIVERGED, FRAME, PADDING, RUN, START, STOPPED, SUSPECT, padded
 from gaitsim.compiler.plan import Piece, Plan, Step
+from gaitsim.compiler.records import Records
 from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, NOTHING, POINTER, SHORT, Writer
 
 # A kernel that more parts than this have is called, not copied for each: its code then stays in the processor's cache.
@@ -45,11 +46,16 @@ class Translation:
         """How many parts each kernel has."""
         return Counter(piece.kernel for piece in self.plan.pieces)
 
+    @cached_property
+    def records(self) -> Records:
+        """What writes the code that keeps signals."""
+        return Records(self.text, self.names, self._function, self.plan)
+
     def module(self) -> Any:
         """The whole module; kernels and what MuJoCo has are only declared."""
         self._finite()
         self._bounded()
-        self._kept()
+        self.records.kept()
         self._start()
         self._run()
         return self.text
@@ -290,7 +296,7 @@ class Translation:
         row = self._row(f, f.step)
         for line, source in enumerate(plan.lines):
             f.store(f.load(f.outputs, source), row, line)
-        self._record(f)
+        self.records.record(f)
         for i, place in enumerate(plan.stops):
             running = b.fcmp_ordered("<=", f.load(f.outputs, place), DOUBLE(0.5))
             self._end_unless(f, running, STOPPED + i)
@@ -377,30 +383,3 @@ class Translation:
     def _timed(self, f: Writer, what: int | str) -> AbstractContextManager[None]:  # noqa: ARG002
         """Around the code of a part or of a named thing: `stopwatch` counts there how long it takes."""
         return nullcontext()
-
-    # --- records ---
-
-    def _kept(self) -> None:
-        """Copy numbers of a table into a row: pairs of where to and where from."""
-        arguments = {**dict.fromkeys(("row", "table", "pairs"), "pointer"), "count": "integer"}
-        f = self._function("kept", NOTHING, arguments)
-        with f.times(f.count) as i:
-            pair = f.place(f.pairs, f.builder.mul(i, INTEGER(2)), INTEGER)
-            value = f.load(f.table, f.load(pair, 1, INTEGER))
-            f.store(value, f.row, f.load(pair, 0, INTEGER))
-        f.builder.ret_void()
-
-    def _record(self, f: Writer) -> None:
-        b, signals, size = f.builder, list(enumerate(self.plan.signals)), self.plan.outputs
-        wanted = b.icmp_unsigned("!=", f.record, ir.Constant(POINTER, None))
-        with b.if_then(wanted, likely=False):
-            row = f.place(f.record, b.mul(f.step, INTEGER(len(signals))))
-            self._keep(f, row, f.outputs, [(i, place) for i, place in signals if place < size])
-            self._keep(f, row, f.states, [(i, place - size) for i, place in signals if place >= size])
-
-    def _keep(self, f: Writer, row: Any, table: Any, pairs: list[tuple[int, int]]) -> None:
-        kind = ir.ArrayType(INTEGER, 2 * len(pairs))
-        constant = ir.GlobalVariable(self.text, kind, self.text.get_unique_name("pairs"))
-        constant.linkage, constant.global_constant = "internal", True
-        constant.initializer = ir.Constant(kind, [number for pair in pairs for number in pair])
-        f.builder.call(self.names["kept"], [row, table, constant, INTEGER(len(pairs))])
