@@ -41,7 +41,7 @@ def test_the_exported_file_is_the_same_mechanics(path) -> None:
         np.testing.assert_allclose(getattr(stock, name), getattr(ours, name), rtol=1e-5, atol=1e-9, err_msg=name)
     assert stock.opt.timestep == pytest.approx(ours.opt.timestep)
     assert stock.opt.integrator == ours.opt.integrator
-    np.testing.assert_array_equal(stock.opt.gravity, [0, 0, -9.81])
+    np.testing.assert_array_equal(stock.opt.gravity, [0, 0, -simulator.model.simulate.gravity])
     chance = np.random.default_rng(1)
     for _ in range(5):
         pose = chance.uniform(-0.5, 0.5, ours.nq)
