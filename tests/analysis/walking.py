@@ -61,7 +61,8 @@ def walk(signals: Mapping[str, Floats | float], used: Model | None = None) -> Re
         values[:, columns[f"{heel}.load"]] = on_ground(side)
         values[:, columns[f"{heel}.force"]] = WEIGHT * on_ground(side)
         values[:, columns[f"{heel}.position"]] = position(side)
-        values[:, columns[f"leg_{side}.ball.position"]] = position(side) + FOOT
+        front = "ball" if f"leg_{side}.ball.position" in columns else "medial_toe"
+        values[:, columns[f"leg_{side}.{front}.position"]] = position(side) + FOOT
     if "center.height" in columns:
         values[:, columns["center.height"]] = 1
     for address, signal in signals.items():

@@ -11,6 +11,7 @@ from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.drawings.style import FONT, GREY, above, labelled, panels, quantity
 from gaitsim.analysis.gait.comparison import Followed, Matched, followed, matched_moments, matched_signals, runs
 from gaitsim.analysis.gait.footsteps import double_support, lacks_center, margin, steps, symmetry
+from gaitsim.analysis.gait.frontal import frontal_figures
 from gaitsim.analysis.gait.joint_moments import hidden_paths, joint_power, joint_work
 from gaitsim.analysis.gait.keypoints import FORWARDS, PEAKS_BY, POWERS, VERTICAL, draw_peaks, name_peaks
 from gaitsim.analysis.gait.legs import SIDES, Leg, has_two_legs, mass, on_side, two_legs
@@ -36,6 +37,7 @@ def gait_figures(replay: Replay) -> list[Drawing]:
     return [
         *_angles(replay, legs),
         _forces(replay, legs),
+        *frontal_figures(replay, legs),
         *pressure_figures(replay, legs),
         *_moments(replay, legs),
         *activation_figures(replay, legs),
