@@ -11,7 +11,7 @@ import mujoco
 
 from gaitsim.compiler.mechanics.making import Made
 from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Touching, world_frames
-from gaitsim.compiler.mechanics.space import check_friction, check_sides
+from gaitsim.compiler.mechanics.space import check_friction, check_sides, check_slopes
 from gaitsim.compiler.mechanics.ties import Tie
 from gaitsim.compiler.mechanics.tree import Branch, branches, check_axes
 from gaitsim.compiler.mechanics.verbs import Mechanics, beside_frames, numbers_of
@@ -104,6 +104,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
         if "build" in part.type.functions and part.address not in done:
             build(part)
     check_friction(model, spec, made)
+    check_slopes(model, made)
     compiled = _compiled(spec, {str(part.mark): part for part in model.parts})
     spec.option.integrator = compiled.opt.integrator = _integrator(model, compiled)
     compiled.opt.disableflags |= _unused_stages(compiled)

@@ -22,6 +22,7 @@ class Contacts(Sensors):
         along the ground and the height behind it, in m. `push` and `position_of` of the part around this one
         count from it if they are given this one's name.
         """
+        self.made.across = self.made.across or across != 0
         add_surface(self.spec, self._name("surface"), angle, across, self._info)
         add_ground(self.spec, angle, across, edges, self._info)
 
@@ -29,6 +30,7 @@ class Contacts(Sensors):
         """A sphere that MuJoCo keeps out of the ground; gives a sensor of its force on the ground, in N."""
         # With the pyramidal cone the depth at rest would depend on friction: 1.6 to 100 mm for 0.5 to 2.
         self.spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
+        self.made.collided.append(self.index)
         sphere = self._name("sphere")
         place.body.add_geom(
             name=sphere,

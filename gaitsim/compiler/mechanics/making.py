@@ -22,6 +22,8 @@ class Made:
     drawings: list[tuple[int, DrawnLine | DrawnForce]] = field(default_factory=list)
     touching: list[Touching] = field(default_factory=list)
     carried: dict[int, str] = field(default_factory=dict)  # parts that touch the ground: the body they are on
+    across: bool = False  # whether there is ground that rises to a side
+    collided: list[int] = field(default_factory=list)  # parts that MuJoCo keeps out of the ground
     pushed: dict[int, list[Vector]] = field(default_factory=dict)  # axes along which parts push
     lifts: list[str] = field(default_factory=list)
     begins: list[tuple[str, float, float]] = field(default_factory=list)

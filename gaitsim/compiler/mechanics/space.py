@@ -32,6 +32,18 @@ def check_friction(model: Model, spec: Any, made: Made) -> None:
     faults.raise_if_any()
 
 
+def check_slopes(model: Model, made: Made) -> None:
+    """Whether spheres of MuJoCo are on ground that rises straight ahead, along which alone their forces are told.
+
+    Errors: InvalidSpec for each that is not.
+    """
+    faults = Faults()
+    for part in (model.parts[index] for index in made.collided if made.across):
+        rule = f"{part.type.reference} tells its force along ground that rises straight ahead, and this rises across"
+        faults.add(f"{rule}; choose contact/spatial_hunt_crossley.", part.mark, part.address)
+    faults.raise_if_any()
+
+
 def check_sides(model: Model, values: Sequence[float]) -> None:
     """Whether what lies on a mirrored segment, beside its middle, is mirrored as well.
 
