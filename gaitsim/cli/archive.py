@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from gaitsim.study.archive import Verdict
     from gaitsim.study.records import Difference
 
+_HEADLINES = 4
 app = typer.Typer(help="List, check and record models that run.", no_args_is_help=True, rich_markup_mode=None)
 
 
@@ -32,6 +33,23 @@ What = Annotated[
         autocompletion=_names,
     ),
 ]
+
+
+@app.command("list")
+def list_models(what: What = None, json: Json = False) -> None:
+    """List models: what each is, the papers that its numbers are from, and what it did when it was recorded.
+
+    Example: gaitsim archive list
+    """
+    from gaitsim.study.archive import archived
+    from gaitsim.study.catalogue import entries
+
+    found = list(entries(archived(what or []), console.Talk(json)))
+    if json:
+        console.give_json({"models": [vars(entry) for entry in found]})
+        return
+    rows = [(e.name, e.summary, ", ".join(e.papers), e.tuned, _headline(e.metrics)) for e in found]
+    console.give_table(["model", "what it is", "numbers from", "tuned by", "as recorded"], rows)
 
 
 @app.command("check")
@@ -124,6 +142,16 @@ def difference_rows(name: str, differs: Sequence[Difference]) -> list[tuple[str,
         )
         for d in differs
     ]
+
+
+def _headline(metrics: Mapping[str, tuple[float | None, str]]) -> str:
+    """A few metrics in words; --json has all."""
+    from gaitsim.model import headline_metrics
+    from gaitsim.units import with_unit
+
+    names = headline_metrics(metrics)
+    few = [f"{n} {with_unit(console.shown(metrics[n][0]), metrics[n][1])}" for n in names[:_HEADLINES]]
+    return ", ".join(few) or "no record"
 
 
 def _said(value: float | str | None) -> str:

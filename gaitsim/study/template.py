@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 from gaitsim.components.find import Library, shipped_folder, shipped_specs
 from gaitsim.components.skeleton import new_component, test_of
 from gaitsim.errors import Usage, did_you_mean
-from gaitsim.text.document import Mapping, parse
+from gaitsim.results.tuned import tuned_path
+from gaitsim.spec.inheritance import parents, with_parents
+from gaitsim.text.document import Mapping
 
 _README = """\
 # {title}
@@ -14,7 +18,7 @@ A study with gaitsim. Change whatever you like.
 
 | file | what it is |
 |---|---|
-| `{origin}.yaml` | a model of gaitsim, unchanged |
+| `{origin}.yaml` | a model of gaitsim, unchanged; specs that it extends and tuned values lie beside it |
 | `my_{origin}.yaml` | the same model with `controller/my_reflex` as its feedback |
 | `components/controller/my_reflex.py` | your component: parameters, ports, one equation |
 | `tests/test_my_reflex.py` | its test; run it with `pytest` |
@@ -55,19 +59,22 @@ def study(origin: str) -> dict[str, str]:
     specs = shipped_specs()
     if origin not in specs:
         raise Usage(f"--from {origin}: no such spec is shipped. {did_you_mean(origin, specs)}")
-    text = specs[origin].read_text(encoding="utf-8")
-    document = parse(text, f"{origin}.yaml")
-    if "extends" in document.entries:
-        choice = ", ".join(name for name in specs if "extends" not in parse(specs[name].read_text(), name).entries)
-        raise Usage(f"--from {origin}: this one extends another; begin with {choice}.")
+    files = _shipped_files(specs[origin])
+    document = with_parents(specs[origin], f"{origin}.yaml")
     file, component = new_component("controller", "my_reflex", Library((shipped_folder(),)))
-    files = {f"{origin}.yaml": text}
     feedback = feedback_of(document)
     if feedback is not None:
         files[f"my_{origin}.yaml"] = _VARIANT.format(origin=origin, feedback=feedback)
         files[f"components/controller/{file}"] = component
         files["tests/test_my_reflex.py"] = test_of("controller", "my_reflex")
     return files | {"README.md": _README.format(title=f"My {origin.replace('_', ' ')}", origin=origin)}
+
+
+def _shipped_files(spec: Path) -> dict[str, str]:
+    """A shipped spec, those that it extends, and the values that were tuned for each."""
+    chain = [spec, *parents(spec)]
+    files = [file for one in chain for file in (one, tuned_path(one)) if file.is_file()]
+    return {file.name: file.read_text(encoding="utf-8") for file in files}
 
 
 def feedback_of(document: Mapping) -> str | None:

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from gaitsim.components.find import shipped_folder, shipped_specs
-from gaitsim.study.records import Value, read_record
+from gaitsim.study.records import Value, read_record, record_path
 
 from .commands import Said, gaitsim
 
@@ -38,6 +38,23 @@ def check(capsys: pytest.CaptureFixture[str], *words: str) -> Said:
 def test_models_that_run_briefly_do_what_was_recorded(capsys: pytest.CaptureFixture[str]) -> None:
     said = gaitsim(capsys, "archive", "check", *QUICK)
     assert (said.code, said.out) == (0, "3 of 3 models do what was recorded\n"), said.out + said.err
+
+
+@pytest.mark.parametrize("name", shipped_specs())
+def test_every_shipped_spec_has_a_record(name: str) -> None:
+    found = record_path(shipped_specs()[name]).is_file()
+    assert found, f"no record of {name}; write it with: gaitsim archive record {name}"
+
+
+def test_the_list_says_what_models_are_and_what_they_did(capsys: pytest.CaptureFixture[str]) -> None:
+    said = gaitsim(capsys, "archive", "list", *QUICK, "--json")
+    hopper = next(m for m in json.loads(said.out)["models"] if m["name"] == "hopping_geyer2003")
+    assert hopper["about"].startswith("Hopping by positive force feedback")
+    assert hopper["papers"] == ["geyer2003"]
+    value, unit = hopper["metrics"]["apex_height"]
+    assert (round(value, 3), unit) == (0.163, "m")
+    told = " ".join(gaitsim(capsys, "archive", "list", *QUICK).out.split())
+    assert "hopping_geyer2003 Hopping by positive force feedback" in told and "apex_height 0.16298 m" in told
 
 
 @pytest.mark.slow
