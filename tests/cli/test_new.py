@@ -79,6 +79,8 @@ def test_a_variant_comes_with_its_parents_and_tuned_values(
 def test_every_shipped_spec_can_be_the_beginning(origin: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert gaitsim(capsys, "new", "demo", "--from", origin).code == 0
     for spec in Path("demo").glob("*.yaml"):
+        if spec.stem.endswith(".tuned"):
+            continue
         said = gaitsim(capsys, "check", str(spec))
         assert said.code == 0, said.err
 
