@@ -31,7 +31,7 @@ test: check ## run check and the fast tests, as required before a merge
 test-all: check ## run check and all tests, including long simulations and killed searches, as required before a release
 	$(TESTS)
 
-archive: $(READY) ## run every model again and compare it with its record (half a minute)
+archive: $(READY) ## run every model again and compare it with its record (a minute or two)
 	.venv/bin/gaitsim archive check
 
 docs: $(READY) ## build the documentation in site/ (a broken link is an error)

@@ -140,6 +140,9 @@ def test_the_wheel_has_library_specs_and_licence_and_no_litter(wheel: Path) -> N
 @pytest.mark.slow
 def test_from_the_wheel_to_a_first_result(stranger: Path, tmp_path: Path) -> None:
     assert "shipped" in json.loads(asked(stranger, tmp_path, "library", "show", "muscle/geyer2010", "--json"))["file"]
+    asked(stranger, tmp_path, "new", "slope", "--from", "walking_geyer2010_slope")
+    assert (tmp_path / "slope" / "walking_geyer2010.tuned.yaml").is_file()
+    assert asked(stranger, tmp_path, "archive", "check", "pendulum_pid") == "1 of 1 models do what was recorded\n"
     asked(stranger, tmp_path, "new", "demo")
     demo, spec = tmp_path / "demo", "my_hopping_leg_mass.yaml"
     ran = json.loads(asked(stranger, demo, "run", spec, "--json"))

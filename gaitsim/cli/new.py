@@ -74,7 +74,8 @@ def _new_folder(folder: Path, origin: str, json: bool) -> None:
         return
     for name in files:
         console.give(str(folder / name))
-    first = f"cd {quote(str(folder))} && {command('run', f'my_{origin}.yaml')}"
+    mine = f"my_{origin}.yaml"
+    first = f"cd {quote(str(folder))} && {command('run', mine if mine in files else f'{origin}.yaml')}"
     console.say(f"next: {first}; more in {folder / 'README.md'}")
 
 

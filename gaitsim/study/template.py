@@ -67,7 +67,16 @@ def study(origin: str) -> dict[str, str]:
         files[f"my_{origin}.yaml"] = _VARIANT.format(origin=origin, feedback=feedback)
         files[f"components/controller/{file}"] = component
         files["tests/test_my_reflex.py"] = test_of("controller", "my_reflex")
-    return files | {"README.md": _README.format(title=f"My {origin.replace('_', ' ')}", origin=origin)}
+    readme = _README if feedback is not None else _without_own(_README)
+    return files | {"README.md": readme.format(title=f"My {origin.replace('_', ' ')}", origin=origin)}
+
+
+def _without_own(readme: str) -> str:
+    """The text for a model in which no part is a muscle's feedback, so that none was replaced."""
+    kept = [line for line in readme.splitlines(keepends=True) if not (line.startswith("| `") and "my_" in line)]
+    begin = "    gaitsim library new controller my_reflex           # a component of your own\n\n"
+    text = "".join(kept).replace("my_{origin}", "{origin}")
+    return text.replace("Change the equation in `components/controller/my_reflex.py`, then:\n\n", begin)
 
 
 def _shipped_files(spec: Path) -> dict[str, str]:

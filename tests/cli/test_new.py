@@ -65,6 +65,16 @@ def test_every_command_of_its_readme_is_one(capsys: pytest.CaptureFixture[str]) 
         assert all(word in helped.out for word in words if word.startswith("--")), line
 
 
+def test_a_model_without_muscle_feedback_promises_no_file_that_is_not_there(
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    said = gaitsim(capsys, "new", "demo", "--from", "pendulum_pid")
+    assert "cd demo && gaitsim run pendulum_pid.yaml" in said.err
+    readme = Path("demo/README.md").read_text(encoding="utf-8")
+    assert "my_pendulum_pid" not in readme and "| `components" not in readme
+    assert "gaitsim library new controller my_reflex" in readme
+
+
 def test_a_variant_comes_with_its_parents_and_tuned_values(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
