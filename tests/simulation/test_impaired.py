@@ -1,0 +1,31 @@
+"""The impaired walkers at their tuned values: all walk for the 10 s for which they were tuned."""
+
+from __future__ import annotations
+
+import pytest
+
+from gaitsim.simulation.run import Simulator
+from gaitsim.study.opening import Opening
+
+from .models import ROOT
+
+SLOWER = {
+    "weak_plantarflexors": 0.9,
+    "plantarflexor_contracture": 1.14,
+    "weak_hips": 0.96,
+    "calf_hyperreflexia": 1.24,
+    "on_heels": 0.71,
+    "spastic_quadriceps": 0.9,
+}
+
+
+@pytest.mark.parametrize("cause", SLOWER)
+def test_each_walks_and_more_slowly_than_the_healthy_one(cause: str) -> None:
+    found = Simulator(Opening(ROOT / "specs" / f"walking_{cause}.yaml").source().model()).run()
+    assert found.metrics["fall_time"] == pytest.approx(10) and found.metrics["fall_time.fell"] == 0
+    assert found.metrics["speed"] == pytest.approx(SLOWER[cause], abs=0.05)
+
+
+def test_the_healthy_one_is_the_walker() -> None:
+    found = Simulator(Opening(ROOT / "specs" / "walking_impaired.yaml").source().model()).run()
+    assert found.metrics["speed"] == pytest.approx(1.31, abs=0.03)
