@@ -67,7 +67,7 @@ def create_result(
 def finish(folder: Path, manifest: dict[str, Any], headline: Sequence[str]) -> None:
     """Write the README, keeping the researcher's notes, and the final manifest. Errors: OSError."""
     path = folder / "README.md"
-    before = path.read_text(encoding="utf-8") if path.is_file() else ""
+    before = path.read_text(encoding="utf-8", errors="backslashreplace") if path.is_file() else ""
     path.write_text(readme(manifest, headline, before), encoding="utf-8")
     write_manifest(folder, manifest)
 

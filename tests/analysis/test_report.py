@@ -87,7 +87,7 @@ def test_a_page_needs_nothing_else(pendulum: Replay, tmp_path: Path) -> None:
 
 def test_numbers_parts_and_sources_are_on_the_page(pendulum: Replay, tmp_path: Path) -> None:
     text = page_of(write(tmp_path / "report.html", [pendulum], [], remarks=["the video is missing"])).text
-    assert "An inverted pendulum that a delayed PID controller keeps upright" in text
+    assert "An inverted pendulum that a PID controller with delay keeps upright" in text
     assert "completed ran its whole time of 10 s" in text
     assert "the video is missing" in text
     value = facts.shown(pendulum.outcome.metrics["torque"])

@@ -11,6 +11,7 @@ import pytest
 from optimization.searches import Ended, Study, signed
 
 from gaitsim.cli.main import main
+from gaitsim.results import store
 
 ROOT = Path(__file__).parents[2]
 SMALL = ("--workers", "0", "--set", "simulate.duration=500ms", "--generations", "2", "--seed", "3")
@@ -211,3 +212,9 @@ def test_normal_mode_gives_the_same_search(study: Study, command: Any) -> None:
     rapid, normal = ([(line["x"], line["score"]) for line in journal(folder)] for folder in study.results)
     assert [x for x, _ in rapid] == [x for x, _ in normal]
     assert [score for _, score in rapid] == pytest.approx([score for _, score in normal], rel=1e-9)
+
+
+def test_notes_that_are_no_longer_utf8_stay_readable(tmp_path: Path) -> None:
+    (tmp_path / "README.md").write_bytes(b"# A result\n\n## Notes\n\ngood \xa0 gait\n")
+    store.finish(tmp_path, {"name": "a", "gaitsim": "1", "created": "2026", "status": "completed"}, [])
+    assert "good \\xa0 gait" in (tmp_path / "README.md").read_text(encoding="utf-8")
