@@ -4,6 +4,7 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, 
 
 from ._hill import METABOLICS, PATH_LENGTH, PENNATE_PATH, PENNATION_ANGLE, STEP_MEASURE, look_ahead
 
+# Powers are written as products, which plain Python and native code round alike.
 TENDON_SQUARE, TENDON_LINEAR = 260.972, 7.9706  # c_T1, c_T2
 ACTIVE_CUBE, ACTIVE_SQUARE = 1.5, -2.75  # c_L1, c_L2
 SHORTEST, LONGEST = 0.46899, 1.80528  # r_1, r_2: where f_l vanishes
@@ -14,25 +15,25 @@ PASSIVE_CUBE, PASSIVE_SQUARE = 1.08027, 1.27368  # c_P1, c_P2
 def active_force(length):
     """f_l of the active fiber, between r_1 and r_2; never below 0, as it would be by rounding of these two."""
     x = length - 1
-    return max(0.0, ACTIVE_CUBE * x**3 + ACTIVE_SQUARE * x**2 + 1) if SHORTEST < length < LONGEST else 0.0
+    return max(0.0, ACTIVE_CUBE * (x * x * x) + ACTIVE_SQUARE * (x * x) + 1) if SHORTEST < length < LONGEST else 0.0
 
 
 def passive_force(length):
     """f_PE of the passive fiber."""
     x = max(0.0, length - 1)
-    return PASSIVE_CUBE * x**3 + PASSIVE_SQUARE * x**2
+    return PASSIVE_CUBE * (x * x * x) + PASSIVE_SQUARE * (x * x)
 
 
 def passive_energy(length):
     """Integral of f_PE over the length."""
     x = max(0.0, length - 1)
-    return PASSIVE_CUBE * x**4 / 4 + PASSIVE_SQUARE * x**3 / 3
+    return PASSIVE_CUBE * ((x * x) * (x * x)) / 4 + PASSIVE_SQUARE * (x * x * x) / 3
 
 
 def tendon_force(strain):
     """f_T over the tendon's strain."""
     e = max(0.0, strain)
-    return TENDON_SQUARE * e**2 + TENDON_LINEAR * e
+    return TENDON_SQUARE * (e * e) + TENDON_LINEAR * e
 
 
 def tendon_stiffness(strain):
@@ -43,7 +44,7 @@ def tendon_stiffness(strain):
 def tendon_energy(strain):
     """Integral of f_T over the strain."""
     e = max(0.0, strain)
-    return TENDON_SQUARE * e**3 / 3 + TENDON_LINEAR * e**2 / 2
+    return TENDON_SQUARE * (e * e * e) / 3 + TENDON_LINEAR * (e * e) / 2
 
 
 def force_velocity(velocity):
