@@ -108,7 +108,7 @@ def test_drawn_paths_turn_joints_as_the_model_does_in_every_posture() -> None:
     inner = {("gastrocnemius", "knee"): ".second", ("gastrocnemius", "ankle"): ".first"}
     inner |= {("hamstrings", "knee"): ".second", ("hamstrings", "hip"): ".first"}
     compared = 0
-    for row in range(0, len(replay.trajectory.times), 30):
+    for row in range(0, len(replay.trajectory.times), 12):
         posture.take(row)
         for (muscle, joint), (_, largest) in SIDES.items():
             for leg in ("leg_l", "leg_r"):

@@ -167,8 +167,8 @@ def test_a_size_is_two_numbers() -> None:
 
 
 def test_the_end_of_a_film_says_how_the_walker_fell() -> None:
-    replay = run_of("walking_scone_h1922")
-    assert _ending(replay, 0.1) == ("fell down", pytest.approx(replay.times[-1] - 0.1))
+    replay = run_of("walking_scone_h1922", 2.0)
+    assert _ending(replay, 0.1) == ("fell to the left", pytest.approx(replay.times[-1] - 0.1))
     assert _ending(replay.between(0, 0.1), 0.1) == ("", 0)
     plain = Caption("walker", 1.0, 400, 300, False, None, 100.0)
     picture = np.zeros((300, 400, 3), dtype=np.uint8)

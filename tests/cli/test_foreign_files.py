@@ -119,4 +119,4 @@ def test_printed_commands_can_be_pasted(gaitsim: Callable[..., Said]) -> None:
     again = f"gaitsim optimize '{folder.replace(chr(39), chr(39) + chr(34) + chr(39) + chr(34) + chr(39))}' --resume"
     assert again in said.err
     said = gaitsim("new", "a b", "--from", "pendulum_pid")
-    assert said.err == "next: cd 'a b' && gaitsim run my_pendulum_pid.yaml; more in a b/README.md\n"
+    assert said.err == "next: cd 'a b' && gaitsim run pendulum_pid.yaml; more in a b/README.md\n"

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 from components.calls import FILES, Tables, metrics, primitive
+
+from gaitsim.components.load import function_of
 
 NAN = pytest.approx(math.nan, nan_ok=True)
 
@@ -113,3 +116,21 @@ def test_fall() -> None:
         assert not tables.call("update", "rapid")
         tables.call("output", "rapid")
         assert tables.y.stop == stop
+
+
+@pytest.mark.parametrize("direction", [1, -1])
+def test_section(direction: float) -> None:
+    """Passages at 0.5, 1.2 and 2.1 s, of which the run is asked to end at the third."""
+    kind = primitive("measure/section")
+    tables = Tables(kind).put({"direction": direction, "stop_after": 3, "crossing": 0.4})
+    assert not tables.call("output", "rapid")
+    assert tables.y.guard == pytest.approx(0.4 * direction)
+    for time, value in ((0.5, 10.0), (1.2, 11.0), (2.1, 13.0)):
+        assert not tables.call("output", "rapid")
+        assert tables.y.stop == 0
+        assert not tables.put({"signal": value}).call("reset", "rapid", time)
+    assert not tables.call("output", "rapid")
+    assert tables.y.stop == 1
+    found = SimpleNamespace()
+    function_of(kind.cls, "finish")(tables.p, tables.x, found)
+    assert vars(found) == pytest.approx({"passages": 3, "value": 13, "first": 10, "period": 0.9})
