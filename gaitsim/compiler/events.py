@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES
-from gaitsim.compiler.native import EVENTS, FRAME, HALVINGS
+from gaitsim.compiler.native import EVENTS, FRAME, HALVINGS, RUNGE_KUTTA
 from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, NOTHING, POINTER, SHORT, Writer
 
 if TYPE_CHECKING:
@@ -18,8 +18,6 @@ if TYPE_CHECKING:
 
 _STEP = {**FRAME, "ties": "pointer", **dict.fromkeys(("model", "data", "qpos", "qvel"), "shared")}
 _MOVE = {**_STEP, "begin": "pointer", "speed": "pointer", "span": "number"}
-# Where each stage of Runge-Kutta 4 begins, as a share of the step, and the weight of its rates.
-_STAGES = ((0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0))
 
 
 @dataclass
@@ -69,7 +67,7 @@ class Events:
         b, size = f.builder, self.of.plan.coordinates[0]
         velocities, accelerations = (b.alloca(DOUBLE, size=max(size, 1)) for _ in range(2))
         acceleration = f.load(f.ties, self._resets + len(self.of.plan.resets), POINTER)
-        for stage, (share, weight) in enumerate(_STAGES):
+        for stage, (share, weight) in enumerate(RUNGE_KUTTA):
             with f.times(INTEGER(size)) as i:
                 if stage:
                     self._shift(f, i, b.fmul(DOUBLE(share), f.span), f.load(f.qvel, i), f.load(acceleration, i))

@@ -10,6 +10,8 @@ PADDING = 32
 
 # Of steps with events: how many one step may have, and how often it is halved to locate one.
 EVENTS, HALVINGS = 64, 44
+# Where each stage of Runge-Kutta 4 begins, as a share of the step, and the weight of its rates.
+RUNGE_KUTTA = ((0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0))
 
 # What functions are given, each an integer, a number (a double), a pointer to a table of its own, or a pointer
 # into what others reach as well. First what all of a step get: its number and length, the tables, and the past

@@ -14,15 +14,13 @@ import mujoco
 import numpy as np
 
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES, tie_place
-from gaitsim.compiler.native import EVENTS, HALVINGS
+from gaitsim.compiler.native import EVENTS, HALVINGS, RUNGE_KUTTA
 from gaitsim.compiler.program import Floats
 from gaitsim.components.checks.check import GUARD
 from gaitsim.simulation.failure import of_events
 
 if TYPE_CHECKING:
     from gaitsim.simulation.python_loop import Checked
-
-_STAGES = ((0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0))  # where each begins, and the weight of its rates
 
 
 class Failed(Exception):
@@ -65,7 +63,7 @@ def _move(run: Checked, step: int, begin: tuple[Floats, Floats], span: float) ->
     # Not 0: the sum with a rate of -0 would lose its sign, which native code keeps.
     velocities, accelerations = np.full_like(position, -0.0), np.full_like(speed, -0.0)
     data.qpos[:], data.qvel[:] = begin
-    for stage, (share, weight) in enumerate(_STAGES):
+    for stage, (share, weight) in enumerate(RUNGE_KUTTA):
         if stage:
             shift = share * span
             data.qpos[:], data.qvel[:] = position + shift * data.qvel, speed + shift * data.qacc

@@ -93,9 +93,10 @@ class Difference:
 
     @property
     def change(self) -> float | None:
-        """The relative change; None where there is none to speak of."""
-        both = isinstance(self.recorded, float) and isinstance(self.now, float)
-        return self.now / self.recorded - 1 if both and self.recorded else None  # type: ignore[operator]
+        """The relative change; None of a text and of a recorded 0."""
+        if isinstance(self.recorded, float) and isinstance(self.now, float) and self.recorded:
+            return self.now / self.recorded - 1
+        return None
 
 
 def record_path(spec: Path) -> Path:

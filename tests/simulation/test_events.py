@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -17,8 +18,8 @@ RUNNER = ROOT / "specs" / "running_slip.yaml"
 HOPPER = ROOT / "specs" / "hopping_spring_mass.yaml"
 
 
-def metrics(path: object, mode: Mode = "rapid", **settings: str) -> dict[str, float]:
-    outcome = simulator(path, [(key.replace("__", "."), value) for key, value in settings.items()], mode).run()  # type: ignore[arg-type]
+def metrics(path: Path, mode: Mode = "rapid", **settings: str) -> dict[str, float]:
+    outcome = simulator(path, [(key.replace("__", "."), value) for key, value in settings.items()], mode).run()
     assert outcome.status == "completed", outcome.reason
     return dict(outcome.metrics)
 
@@ -70,8 +71,8 @@ def test_the_runner_settles_at_its_fixed_point() -> None:
 
 
 @pytest.mark.parametrize("path", [RUNNER, HOPPER], ids=lambda path: path.stem)
-def test_both_modes_agree_bit_for_bit_through_events(path: object) -> None:
-    agree(model(path, [("simulate.duration", "0.32 s"), ("simulate.step", "2 ms")]))  # type: ignore[arg-type]
+def test_both_modes_agree_bit_for_bit_through_events(path: Path) -> None:
+    agree(model(path, [("simulate.duration", "0.32 s"), ("simulate.step", "2 ms")]))
 
 
 def test_a_leg_that_starts_below_the_ground_lands_only_after_it_was_above() -> None:
