@@ -125,8 +125,11 @@ class Panel:
         font = 9.5 * self.scale
         grid = figure.subplots(len(self.signals), 1, sharex=True, squeeze=False)
         line, em = font * _DPI / 72 / self.height, font * _DPI / 72 / self.width
+        # Names of levels stand at the left of a scope and, in bold, at its right.
+        letters = max((len(name) for signal in self.signals for name in signal.levels), default=0)
+        left, right = max(5.2, 0.6 * letters + 1.2) * em, max(8.2, 0.75 * letters + 1.2) * em
         figure.subplots_adjust(
-            left=5.2 * em, right=1 - 8.2 * em, top=1 - 2.2 * line, bottom=4.0 * line, hspace=self._gap(line)
+            left=left, right=1 - right, top=1 - 2.2 * line, bottom=4.0 * line, hspace=self._gap(line)
         )
         times = self.trajectory.times
         kept = np.flatnonzero((times >= begin - 1e-9) & (times <= end + 1e-9))

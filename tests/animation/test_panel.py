@@ -74,6 +74,15 @@ def test_values_have_as_many_decimals_as_can_be_told_apart_and_states_have_names
     assert _shown(LEVEL, 1.0, 1.0) == "stance"
 
 
+def test_long_names_of_levels_stay_in_the_picture() -> None:
+    times = np.linspace(0, 1, 11)
+    trajectory = Trajectory(times, ("gait.phase",), ("1",), np.zeros((11, 1)))
+    signal = Signal("gait.phase", "1", "Phase.", ("early_stance_of_a_leg", "swing"))
+    picture = Panel(trajectory, [signal], 700, 300, 0.0, 1.0).picture(5)
+    assert (picture[:, :5] == 255).all() and (picture[:, -5:] == 255).all()
+    assert (picture < 255).any(axis=2).sum() > 1000
+
+
 def test_the_number_beside_a_scope_changes() -> None:
     scopes = panel(4.0)
     first, last = (scopes.picture(row)[:, 590:] for row in (0, 157))
