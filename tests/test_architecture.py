@@ -76,6 +76,32 @@ def test_only_the_compiler_and_the_simulation_know_mujoco_and_numba() -> None:
     assert users("numba") == {"compiler"}
 
 
+def at_import(path: Path) -> set[str]:
+    """The packages that are imported when a file is, and not only when one of its functions runs."""
+    found: set[str] = set()
+    waiting: list[ast.AST] = [tree_of(path)]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            continue
+        if isinstance(node, ast.If) and "TYPE_CHECKING" in ast.dump(node.test):
+            waiting += node.orelse
+            continue
+        if isinstance(node, ast.Import):
+            found |= {alias.name.partition(".")[0] for alias in node.names}
+        elif isinstance(node, ast.ImportFrom) and node.module:
+            found.add(node.module.partition(".")[0])
+        waiting += ast.iter_child_nodes(node)
+    return found
+
+
+def test_packages_for_analysis_are_imported_where_they_are_used() -> None:
+    """Neither a command that needs none of them nor a worker waits for them."""
+    heavy = {"PIL", "h5netcdf", "h5py", "imageio_ffmpeg", "jinja2", "matplotlib", "pandas", "rich", "xarray"}
+    found = {str(path.relative_to(PACKAGE)): at_import(path) & heavy for path in FILES}
+    assert {path: names for path, names in found.items() if names} == {}
+
+
 def test_only_the_cli_prints() -> None:
     calls = {
         str(path.relative_to(PACKAGE))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import json
 import os
+import pickle
 import re
 import shutil
 import site
@@ -19,6 +20,8 @@ import pytest
 import yaml
 
 import gaitsim
+from gaitsim.cluster.evaluate import runner_of
+from gaitsim.study.opening import Opening
 
 ROOT = Path(__file__).resolve().parents[1]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -73,6 +76,55 @@ def test_all_that_is_imported_is_asked_for() -> None:
     homes = metadata.packages_distributions()
     missing = {m for m in imported() if not {distribution(d) for d in homes.get(m, [m])} & installed}
     assert missing == set()
+
+
+def worker_packages() -> set[str]:
+    """What the page on clusters tells to install on a worker."""
+    page = (ROOT / "docs" / "how-to" / "cluster.md").read_text(encoding="utf-8")
+    (line,) = re.findall(r"^ *pip install (?!--no-deps)(.+)$", page, re.MULTILINE)
+    return {needed(word.strip('"')) for word in line.split()}
+
+
+WORKER = """
+import json, pickle, sys
+from pathlib import Path
+
+absent = set(json.loads(sys.argv[1]))
+
+
+class Absent:
+    def find_spec(self, name, path=None, target=None):
+        if name.partition(".")[0] in absent:
+            raise ModuleNotFoundError(f"No module named {name!r}", name=name)
+
+
+sys.meta_path.insert(0, Absent())
+from gaitsim.cluster.evaluate import runner_of
+import gaitsim.cluster.worker
+
+model, values = pickle.loads(Path(sys.argv[2]).read_bytes())
+print(json.dumps(runner_of(model, "rapid").verdict(values).metrics))
+"""
+
+
+def test_a_worker_runs_with_the_packages_that_the_page_on_clusters_lists(tmp_path: Path) -> None:
+    listed = worker_packages()
+    assert listed <= {needed(text) for text in PROJECT["dependencies"]}
+    installed = closure(listed | {"distributed"})
+    assert not installed & set(
+        ["cma", "h5netcdf", "h5py", "imageio-ffmpeg", "matplotlib", "pandas", "pillow", "rich", "typer", "xarray"]
+    )
+    homes = metadata.packages_distributions()
+    present = installed | {"gaitsim"}
+    absent = [module for module, found in homes.items() if not {distribution(name) for name in found} & present]
+    source = Opening(ROOT / "specs" / "pendulum_pid.yaml", ("simulate.duration=100 ms",), tuned=False).source()
+    model = source.bundle([source.model()])
+    values = [free.start for free in source.model().free]
+    (tmp_path / "candidate").write_bytes(pickle.dumps((model, values)))
+    words = [sys.executable, "-c", WORKER, json.dumps(absent), str(tmp_path / "candidate")]
+    ran = subprocess.run(words, capture_output=True, text=True)
+    assert ran.returncode == 0, ran.stderr
+    assert json.loads(ran.stdout) == runner_of(model, "rapid").verdict(values).metrics
 
 
 def test_the_citation_file_tells_of_this_version() -> None:

@@ -11,7 +11,6 @@ from typing import IO, Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from gaitsim.animation.errors import CannotAnimate
 
@@ -95,6 +94,8 @@ class Encoder:
 
     def _written_palette(self) -> Path:
         """256 colours that stand for all of the sample's, as ffmpeg reads them: 16 x 16 pixels."""
+        from PIL import Image
+
         assert self._sample is not None
         with tempfile.NamedTemporaryFile(suffix=".png", delete=False) as file:
             self._palette = Path(file.name)

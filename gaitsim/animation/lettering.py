@@ -10,7 +10,6 @@ from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
 
 Pixels = NDArray[np.uint8]
 INK = (30, 34, 40)
@@ -33,7 +32,17 @@ class Words:
 
 
 def write(pixels: Pixels, words: Sequence[Words]) -> Pixels:
-    """The pixels with words on them."""
+    """Draw lines of text on a picture.
+
+    Args:
+        pixels: Height x width x 3 values.
+        words: The lines of text.
+
+    Returns:
+        A copy of the picture with the text on it.
+    """
+    from PIL import Image, ImageDraw
+
     image = Image.fromarray(np.ascontiguousarray(pixels))
     draw = ImageDraw.Draw(image)
     for each in words:
@@ -45,6 +54,7 @@ def write(pixels: Pixels, words: Sequence[Words]) -> Pixels:
 @cache
 def _font(size: int, bold: bool) -> Any:
     import matplotlib
+    from PIL import ImageFont
 
     name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
     return ImageFont.truetype(str(Path(matplotlib.get_data_path()) / "fonts" / "ttf" / name), size)
