@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 
+from gaitsim.errors import InvalidComponent, InvalidSpec
 from gaitsim.model import Model
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.simulation.threads import cores, in_threads
+
+Invalid = InvalidSpec | InvalidComponent
 
 
 def run_all(
@@ -18,9 +22,43 @@ def run_all(
     Errors: InvalidSpec, InvalidComponent, from the first model that does not compile.
     """
     # Prepared one after the other: compiling components is not for threads.
-    simulators = []
-    for model in models:
-        simulators.append(Simulator(model, mode))
-        if prepared:
-            prepared(simulators[-1])
+    simulators = [_simulator(model, mode, prepared) for model in models]
     return in_threads([simulator.run for simulator in simulators], cores())
+
+
+def run_each(
+    models: Sequence[Model | Invalid], mode: Mode, prepared: Callable[[Simulator], None] | None = None
+) -> Iterator[Outcome]:
+    """As `run_all`, where some models are known to be invalid; such a run fails, and so does one that does not compile.
+
+    Errors: InvalidSpec, InvalidComponent, if no model can be run: from the first.
+    """
+    made = [_simulator_or_fault(model, mode, prepared) for model in models]
+    faults = [each for each in made if not isinstance(each, Simulator)]
+    if len(faults) == len(made):
+        raise faults[0]
+    calls = [each.run if isinstance(each, Simulator) else partial(failed_by, each) for each in made]
+    return in_threads(calls, cores())
+
+
+def failed_by(fault: Invalid) -> Outcome:
+    """The outcome of a run that could not begin."""
+    return Outcome("failed", str(fault), 0, 0.0, {}, None, 0.0)
+
+
+def _simulator(model: Model, mode: Mode, prepared: Callable[[Simulator], None] | None) -> Simulator:
+    simulator = Simulator(model, mode)
+    if prepared:
+        prepared(simulator)
+    return simulator
+
+
+def _simulator_or_fault(
+    model: Model | Invalid, mode: Mode, prepared: Callable[[Simulator], None] | None
+) -> Simulator | Invalid:
+    if not isinstance(model, Model):
+        return model
+    try:
+        return _simulator(model, mode, prepared)
+    except (InvalidSpec, InvalidComponent) as error:
+        return error

@@ -7,7 +7,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from gaitsim.errors import GaitsimError, Usage
+from gaitsim.errors import GaitsimError, InvalidComponent, InvalidSpec, Usage
+from gaitsim.model import Model
 from gaitsim.spec.study import variants
 from gaitsim.study.draws import drawn_models
 from gaitsim.study.keeping import Keeping
@@ -17,13 +18,14 @@ from gaitsim.study.times import seconds_of
 if TYPE_CHECKING:
     import pandas
 
-    from gaitsim.model import Model
     from gaitsim.optimization.draws import Draws
+    from gaitsim.simulation.batch import Invalid
     from gaitsim.simulation.outcome import Outcome
     from gaitsim.simulation.run import Mode
     from gaitsim.spec.study import Variant
     from gaitsim.study.listening import Listener
     from gaitsim.study.opening import Opening
+    from gaitsim.study.source import Source
 
 
 @dataclass(frozen=True)
@@ -71,13 +73,13 @@ class Places:
 class Runs:
     """Runs, and their outcomes as far as they were made.
 
-    rows: what each run sets. models: of the rows; of draws, the one that they are around. simulated: the model of
-    each run. notices: what a reader should know. outcomes: in the order of the rows.
+    rows: what each run sets. models: of the rows that are valid; of draws, the one that they are around. simulated: the
+    model of each run, or why it has none. notices: what a reader should know. outcomes: in the order of the rows.
     """
 
     rows: Sequence[Variant]
     models: Sequence[Model]
-    simulated: Sequence[Model]
+    simulated: Sequence[Model | Invalid]
     mode: Mode
     draws: Draws | None
     out: Path | None
@@ -140,11 +142,11 @@ class Runs:
 
     def _outcomes(self, listener: Listener) -> Iterator[Outcome]:
         """The outcomes of the models, in their order, as they end."""
-        from gaitsim.simulation.batch import run_all
+        from gaitsim.simulation.batch import run_each
         from gaitsim.simulation.run import Simulator
 
         if self.single:
-            simulator = Simulator(self.simulated[0], self.mode)
+            simulator = Simulator(self.models[0], self.mode)
             self.starts.look_at(simulator)
             self._warn(listener)
             with listener.waiting("simulating"):
@@ -152,7 +154,7 @@ class Runs:
             yield outcome
             return
         hear = listener.progress("runs")
-        for count, outcome in enumerate(run_all(self.simulated, self.mode, self.starts.look_at), start=1):
+        for count, outcome in enumerate(run_each(self.simulated, self.mode, self.starts.look_at), start=1):
             if count == 1:
                 self._warn(listener)
             hear(count, len(self.simulated))
@@ -185,12 +187,16 @@ def prepared(
     if places.out is not None and len(rows) > 1:
         raise Usage("--out writes one trajectory; drop --vary or study:, or --set one value.")
     places.check()
-    models = [source.model(row.document) for row in rows]
+    tried = [_model(source, row) for row in rows]
+    models = [each for each in tried if isinstance(each, Model)]
+    faults = [each for each in tried if not isinstance(each, Model)]
+    if faults and (draws or not models):
+        raise faults[0]
     spacing = places.spacing(models)
     notices = list(dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]))
     for notice in notices:
         listener.say(notice)
-    simulated = models
+    simulated: Sequence[Model | Invalid] = tried
     if draws:
         simulated, unmoved = drawn_models(models, draws, opening.path)
         rows = rows * draws.count
@@ -199,3 +205,11 @@ def prepared(
             listener.say(notice)
     keeping = Keeping(places.results, source, models, mode, draws)
     return Runs(rows, models, simulated, mode, draws, places.out, spacing, Starts(source), keeping, notices)
+
+
+def _model(source: Source, row: Variant) -> Model | Invalid:
+    """The model of a row, or why there is none."""
+    try:
+        return source.model(row.document)
+    except (InvalidSpec, InvalidComponent) as error:
+        return error

@@ -9,11 +9,13 @@ from dataclasses import dataclass
 from typing import Any
 
 from gaitsim.cluster.episodes import bundle_episodes
+from gaitsim.errors import InvalidComponent, InvalidSpec
 from gaitsim.optimization.evaluation import Evaluation
 from gaitsim.optimization.journal import evaluations_in
 from gaitsim.results.bundle import BadResult, Bundle
 from gaitsim.results.rows import COMPARED, read_rows, row_starts
 from gaitsim.results.store import row_data
+from gaitsim.simulation.batch import failed_by
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.inheritance import override
 from gaitsim.spec.resolve import resolve
@@ -57,8 +59,12 @@ def _runs(bundle: Bundle, mode: Mode) -> Iterator[Check]:
         variant = document
         for address, text in row["settings"].items():
             variant = override(variant, address, text)
-        model = resolve(variant, library, bundle.name).started_at(starts | row_starts(row))
-        now = row_data(row["settings"], Simulator(model, mode).run())
+        try:
+            model = resolve(variant, library, bundle.name).started_at(starts | row_starts(row))
+            outcome = Simulator(model, mode).run()
+        except (InvalidSpec, InvalidComponent) as error:
+            outcome = failed_by(error)
+        now = row_data(row["settings"], outcome)
         yield _check(", ".join(f"{a}={v}" for a, v in row["settings"].items()) or f"run {i}", row, now)
 
 
