@@ -140,6 +140,22 @@ class Signal:
 
 
 @dataclass(frozen=True)
+class KnownValue:
+    """A metric's value that is known from elsewhere, in SI, and how far from it counts as the same.
+
+    unit: the one it is written in outside. tolerance: None where nothing is said.
+    """
+
+    what: str
+    metric: str
+    value: float
+    unit: str
+    tolerance: float | None
+    source: str
+    mark: Mark | None = field(default=None, compare=False)
+
+
+@dataclass(frozen=True)
 class Simulate:
     """How long and in which steps, in SI."""
 
@@ -180,6 +196,7 @@ class Model:
     objective: Objective | None
     simulate: Simulate
     notices: tuple[str, ...] = ()
+    reproduces: tuple[KnownValue, ...] = ()
     dropped: frozenset[Mark] = frozenset()  # words of the spec that a swapped-in part lacks
 
     @property

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import archive
 import commands
 import components
 import references
@@ -40,7 +41,8 @@ def on_files(files: Files, config: MkDocsConfig) -> Files:
     Returns:
         The same collection.
     """
-    pages: list[Page] = [*components.pages(), commands.page(), spec_format.page(), references.page(), *_root_pages()]
+    own = [commands.page(), spec_format.page(), archive.page(), references.page()]
+    pages: list[Page] = [*components.pages(), *own, *_root_pages()]
     for page in pages:
         files.append(File.generated(config, page.path, content=page.content))
     return files

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
@@ -13,6 +13,7 @@ from gaitsim.errors import ExitCode, command
 
 if TYPE_CHECKING:
     from gaitsim.study.archive import Verdict
+    from gaitsim.study.known import Compared
     from gaitsim.study.records import Difference
 
 _HEADLINES = 4
@@ -37,19 +38,26 @@ What = Annotated[
 
 @app.command("list")
 def list_models(what: What = None, json: Json = False) -> None:
-    """List models: what each is, the papers that its numbers are from, and what it did when it was recorded.
+    """List models: what each is, the papers behind it, how well it has known values, and what it did when recorded.
 
     Example: gaitsim archive list
     """
     from gaitsim.study.archive import archived
     from gaitsim.study.catalogue import entries
+    from gaitsim.study.known import summary
 
     found = list(entries(archived(what or []), console.Talk(json)))
     if json:
-        console.give_json({"models": [vars(entry) for entry in found]})
+        known = [[compared_data(row) for row in entry.reproduces] for entry in found]
+        models = [{**vars(entry), "reproduces": rows} for entry, rows in zip(found, known, strict=True)]
+        console.give_json({"models": models})
         return
-    rows = [(e.name, e.summary, ", ".join(e.papers), e.tuned, _headline(e.metrics)) for e in found]
-    console.give_table(["model", "what it is", "numbers from", "tuned by", "as recorded"], rows)
+    rows = [(e.name, e.summary, ", ".join(e.papers), summary(e.reproduces), _headline(e.metrics)) for e in found]
+    console.give_table(["model", "what it is", "papers", "how well it has known values", "as recorded"], rows)
+    compared = [(entry.name, *cells) for entry in found for cells in compared_rows(entry.reproduces)]
+    if compared:
+        console.give("")
+        console.give_table(["model", *COMPARED_COLUMNS], compared)
 
 
 @app.command("check")
@@ -142,6 +150,40 @@ def difference_rows(name: str, differs: Sequence[Difference]) -> list[tuple[str,
         )
         for d in differs
     ]
+
+
+COMPARED_COLUMNS = ("what it should have", "metric", "known value", "model", "difference", "within", "source")
+
+
+def compared_rows(rows: Iterable[Compared]) -> list[tuple[str, ...]]:
+    """Known values beside those of a model, as rows of a table."""
+    from gaitsim.units import with_unit
+
+    words = {True: "yes", False: "no", None: ""}
+    return [
+        (
+            row.what,
+            row.metric,
+            with_unit(f"{row.known:.9g}", row.unit),
+            "-" if row.model is None else with_unit(f"{row.model:.9g}", row.unit),
+            _difference(row),
+            words[row.holds],
+            row.source,
+        )
+        for row in rows
+    ]
+
+
+def compared_data(row: Compared) -> dict[str, Any]:
+    """A known value beside that of a model, as data."""
+    return {**vars(row), "difference": row.difference, "share": row.share, "holds": row.holds}
+
+
+def _difference(row: Compared) -> str:
+    if row.difference is None:
+        return ""
+    share = "" if row.share is None else f" ({100 * row.share:+.2g} %)"
+    return f"{row.difference:+.2g}{share}"
 
 
 def _headline(metrics: Mapping[str, tuple[float | None, str]]) -> str:

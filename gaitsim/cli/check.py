@@ -43,6 +43,7 @@ def check(
     gaitsim check specs/hopping_leg_mass.yaml --convergence
     """
     from gaitsim.analysis.models.moment_arms import draw, table
+    from gaitsim.cli.archive import COMPARED_COLUMNS, compared_data, compared_rows
     from gaitsim.cli.convergence import data, give
     from gaitsim.study.soundness import checked
 
@@ -63,9 +64,12 @@ def check(
         told = {"notices": sound.notices, "warnings": [_line(doubt) for doubt in sound.doubts]}
         drawn = {"plot": str(picture) if picture else None, "moment_arms": table(arms)} if plot else {}
         changes = {"convergence": [data(one, tolerance) for one in found]} if convergence else {}
-        console.give_json({"status": "valid", **counts, **told, **drawn, **changes})
+        known = {"reproduces": [compared_data(row) for row in sound.known]}
+        console.give_json({"status": "valid", **counts, **told, **known, **drawn, **changes})
         return
     console.give(f"{spec}: valid ({', '.join(f'{n} {name}' for name, n in counts.items())})")
+    if sound.known:
+        console.give_table(COMPARED_COLUMNS, compared_rows(sound.known))
     for row, converged in zip(sound.rows, found, strict=False):
         if row.settings:
             console.give("\n" + ", ".join(f"{address} = {value}" for address, value in row.settings.items()))

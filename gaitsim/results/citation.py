@@ -56,6 +56,12 @@ def citations(model: Model, bibliography: Mapping[str, str], algorithm: tuple[st
                 faults.add(unknown_key(key, set(bibliography)), _place(number, part), number.address)
         if not keys and number.source not in _UNSAID and not number.source.startswith("definition"):
             words[number.source].append(number.address)
+    for known in model.reproduces:
+        for key in keys_of(known.source):
+            if key in bibliography:
+                used[key].append(known.metric)
+            else:
+                faults.add(unknown_key(key, set(bibliography)), known.mark, known.metric)
     for reference, text in _components(model).items():
         for key in dict.fromkeys(re.findall(r"\w+", f"{reference} {text}")):
             if key in bibliography:

@@ -13,7 +13,9 @@ from gaitsim.text.document import Mapping, Node, Scalar, Sequence, plain
 from gaitsim.text.syntax import DEPTH_LIMIT
 
 VALUE_KEYS = frozenset({"value", "tune", "spread", "source"})
-_SECTIONS = frozenset({"about", "gaitsim", "initial", "objective", "parameters", "simulate", "study", "use_for"})
+_SECTIONS = frozenset(
+    {"about", "gaitsim", "initial", "objective", "parameters", "reproduces", "simulate", "study", "use_for"}
+)
 _SEARCHED = ("measures", "parts")
 _SPEC = re.compile(
     rf"^\ufeff?({'|'.join(sorted({'extends', 'optimize', *_SECTIONS, *_SEARCHED}))}) *:(\s|$)", re.MULTILINE
@@ -56,6 +58,8 @@ def with_parents(path: Path, shown: str, read: Callable[[Path, str], Mapping] = 
             raise InvalidSpec(Fault(f"{rule}; remove one extends.", parent.mark, "extends"))
         seen.append(os.path.realpath(path))
         documents.append(_parent(path, shown, parent.mark, read))
+    # What a parent reproduces, a spec that changes it need not.
+    documents[1:] = [without(each, "reproduces") for each in documents[1:]]
     result, *children = [without(each, "extends") for each in reversed(documents)]
     for child in children:
         result = merged(result, child)

@@ -14,6 +14,7 @@ from gaitsim.model import WORLD, Model, Part, Simulate, metric_units
 from gaitsim.spec.connect import Wiring
 from gaitsim.spec.expand import Expansion, sides
 from gaitsim.spec.inheritance import override, with_parents
+from gaitsim.spec.known import known_values
 from gaitsim.spec.numbers import NumberTable
 from gaitsim.spec.objective import read_objective
 from gaitsim.spec.schema import Header, header
@@ -57,11 +58,12 @@ def resolve(document: Mapping, library: Library, name: str) -> Model:
     parts = tuple(wiring.completed(part) for part in expansion.parts)
     initial = _initial(_section(document, "initial"), wiring, scope)
     objective, said = None, _section(document, "objective")
+    units = metric_units(parts, connections)
     if said.entries:
-        units = metric_units(parts, connections)
         objective = read_objective(said, document.keys["objective"], expansion, units, scope)
     faults.raise_if_any()
     table.check_computed()
+    known = known_values(document.entries.get("reproduces"), units, faults)
     faults.raise_if_any()
     assert head is not None
     simulate = Simulate(**head.simulate.model_dump())
@@ -76,6 +78,7 @@ def resolve(document: Mapping, library: Library, name: str) -> Model:
         objective=objective,
         simulate=simulate,
         notices=(*expansion.notices, *library.notices, *_long_steps(parts, simulate.step)),
+        reproduces=known,
         dropped=frozenset(expansion.dropped),
     )
 

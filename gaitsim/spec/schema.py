@@ -49,6 +49,11 @@ _SAMPLES = {
     "episodes": "[{noise.seed: 1}, {noise.seed: 2}]",
     "duration": "10 s",
     "step": "1 ms",
+    "reproduces": "[{what: Height of a hop, metric: apex_height, value: 16.3 cm, source: geyer2003}]",
+    "what": "Height of a hop",
+    "metric": "apex_height",
+    "value": "16.3 cm",
+    "source": "geyer2003",
 }
 _SHARE = re.compile(r"0?\.\d+|[01]|1\.0*|0\.")  # a number from 0 to 1
 _MOST_STEPS = 1e12  # days of computing, and what an integer of 64 bits holds with ease
@@ -117,6 +122,19 @@ class OptimizeSection(SearchSection):
     )
 
 
+_Written = Annotated[Any, WithJsonSchema({"type": ["string", "number"], "examples": ["16.3 cm"]})]
+
+
+class KnownRow(_Section):
+    """A value that is known from elsewhere, and the metric that should have it."""
+
+    what: str = Field(description="What it is, in words.")
+    metric: str = Field(description="The metric that is compared, such as apex_height.")
+    value: _Written = Field(description="The known value, in a unit of the metric.")
+    tolerance: _Written = Field(default=None, description="A difference up to which the metric counts as the same.")
+    source: str = Field(description="A key of a references.bib, or definition: and words.")
+
+
 class Header(_Section):
     """A spec, as far as its shape is fixed; parts are checked against their components."""
 
@@ -135,9 +153,15 @@ class Header(_Section):
     simulate: SimulateSection = Field(description="Duration, time step and integrator.")
     optimize: OptimizeSection = Field(default=OptimizeSection(), description="How the parameters are tuned.")
     study: list[dict[str, Any]] = Field(default=[], description="A table of overrides. Each row is one run.")
+    reproduces: list[KnownRow] = Field(
+        default=[],
+        description="Values that are known from elsewhere, such as published ones, beside the metrics that should have "
+        "them. A spec does not inherit them.",
+    )
 
 
 _SECTIONS: dict[str, type[_Section]] = {"simulate": SimulateSection, "optimize": OptimizeSection}
+_ROWS: dict[str, type[_Section]] = {"reproduces": KnownRow}
 
 
 def optimize_section(document: Mapping) -> OptimizeSection:
@@ -152,8 +176,17 @@ def header(document: Mapping, faults: Faults) -> tuple[Header | None, Mapping]:
     for name, model in _SECTIONS.items():
         section = document.entries.get(name)
         if isinstance(section, Mapping):
-            own = respelled(section, model.model_fields, f"{name} has no key", faults)
-            document = Mapping(document.entries | {name: own}, document.keys, document.mark)
+            document = _with(document, name, respelled(section, model.model_fields, f"{name} has no key", faults))
+    for name, model in _ROWS.items():
+        rows = document.entries.get(name)
+        if isinstance(rows, Sequence):
+            items = (
+                respelled(item, model.model_fields, f"a row of {name} has no key", faults, f"{name}.{i}")
+                if isinstance(item, Mapping)
+                else item
+                for i, item in enumerate(rows.items)
+            )
+            document = _with(document, name, Sequence(tuple(items), rows.mark))
     try:
         made = Header.model_validate({k: v for k, v in plain(document).items() if v is not None})
     except ValidationError as error:
@@ -162,6 +195,11 @@ def header(document: Mapping, faults: Faults) -> tuple[Header | None, Mapping]:
         return None, document
     _check_steps(made.simulate, document, faults)
     return made, document
+
+
+def _with(document: Mapping, name: str, section: Node) -> Mapping:
+    """The document with another section of this name."""
+    return Mapping(document.entries | {name: section}, document.keys, document.mark)
 
 
 def _check_steps(simulate: SimulateSection, document: Mapping, faults: Faults) -> None:
@@ -179,7 +217,8 @@ def _report(detail: Any, document: Mapping, faults: Faults) -> None:
     path = [word for word in detail["loc"] if word != "[key]"]
     address = ".".join(str(word) for word in path)
     name = str(path[-1])
-    model = _SECTIONS.get(str(path[0]), Header) if len(path) == 2 else Header
+    inside = {2: _SECTIONS, 3: _ROWS}.get(len(path), {})
+    model = inside.get(str(path[0]), Header)
     field = model.model_fields.get(name)
     sample = f"{name}: {_SAMPLES[name]}" if field and name in _SAMPLES else ""
     mark = _mark(document, path)

@@ -17,6 +17,7 @@ from gaitsim.results.store import CannotSave
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
 from gaitsim.simulation.threads import cores, in_threads
+from gaitsim.spec.inheritance import without
 from gaitsim.spec.study import Variant, variants
 from gaitsim.study.listening import Listener
 from gaitsim.study.opening import Opening
@@ -77,7 +78,9 @@ class Archived:
         source = self.source
         tuned = digest_of(json.dumps(dict(source.starts)))[:SHORT] if source.starts else None
         return MadeFrom(
-            spec=digest_of(dump(plain(source.document)))[:SHORT], tuned=tuned, components=versions(source.library)
+            spec=digest_of(dump(plain(without(source.document, "reproduces"))))[:SHORT],
+            tuned=tuned,
+            components=versions(source.library),
         )
 
 

@@ -9,13 +9,17 @@ from dataclasses import dataclass
 
 from gaitsim.components.bibliography import keys_of
 from gaitsim.components.find import shown
-from gaitsim.errors import GaitsimError
+from gaitsim.errors import Faults, GaitsimError
+from gaitsim.model import KnownValue
 from gaitsim.results.tuned import tuned_path
 from gaitsim.spec.inheritance import parents, with_parents
+from gaitsim.spec.known import known_values
+from gaitsim.spec.schema import header
 from gaitsim.study.archive import Archived
+from gaitsim.study.known import Compared, compared
 from gaitsim.study.listening import Listener
-from gaitsim.study.records import BadRecord, read_record
-from gaitsim.text.document import dump, plain, read
+from gaitsim.study.records import BadRecord, Row, read_record
+from gaitsim.text.document import Mapping, dump, plain, read
 
 _SOURCE = re.compile(r"\bsource: ([^,}\n]+)")
 _SENTENCE = re.compile(r"(?<!\bal)(?<=[a-z)])[.:](?:\s|$)")
@@ -27,7 +31,7 @@ class Entry:
 
     papers: keys of the bibliography that sources of its numbers name, the most frequent first. tuned: the file of its
     tuned values. extends: the spec that it varies. metrics: value and unit of each as recorded; of a study of its first
-    run. status: how that ended; "no record" without one.
+    run. status: how that ended; "no record" without one. reproduces: known values beside those of that run.
     """
 
     name: str
@@ -38,6 +42,7 @@ class Entry:
     extends: str
     status: str
     metrics: dict[str, tuple[float | None, str]]
+    reproduces: tuple[Compared, ...] = ()
 
 
 def entries(specs: Sequence[Archived], listener: Listener) -> Iterator[Entry]:
@@ -53,16 +58,30 @@ def _entry(spec: Archived) -> Entry:
     """Errors: InvalidSpec, BadRecord for one that was edited."""
     path = spec.path
     about = " ".join(str(plain(read(path)).get("about", "")).split())
-    text = dump(plain(with_parents(path, shown(path))))
+    document = with_parents(path, shown(path))
+    text = dump(plain(document))
     cited = Counter(key for source in _SOURCE.findall(text) for key in keys_of(source))
     above = list(parents(path))
     tuned = next((tuned_path(one).name for one in (path, *above) if tuned_path(one).is_file()), "")
-    status, metrics = "no record", dict[str, tuple[float | None, str]]()
     try:
         run = read_record(path).runs[0]
-        status, metrics = run.status, {name: (value.value, value.unit) for name, value in run.numbers.items()}
     except BadRecord:
-        pass
+        run = Row(status="no record", numbers={})
+    metrics = {name: (value.value, value.unit) for name, value in run.numbers.items()}
+    known = compared(_known(spec, document, {name: value.unit for name, value in run.numbers.items()}), run.numbers)
     papers = tuple(key for key, _ in cited.most_common())
     summary = _SENTENCE.split(about, maxsplit=1)[0]
-    return Entry(spec.name, about, summary, papers, tuned, above[0].stem if above else "", status, metrics)
+    return Entry(spec.name, about, summary, papers, tuned, above[0].stem if above else "", run.status, metrics, known)
+
+
+def _known(spec: Archived, document: Mapping, recorded: dict[str, str]) -> tuple[KnownValue, ...]:
+    """The known values of a spec; `recorded` has the units of metrics. Errors: InvalidSpec."""
+    faults = Faults()
+    head, document = header(document, faults)
+    faults.raise_if_any()
+    assert head is not None
+    if any(row.metric not in recorded for row in head.reproduces):
+        return spec.models[0].reproduces  # only the model itself knows the units
+    found = known_values(document.entries.get("reproduces"), recorded, faults)
+    faults.raise_if_any()
+    return found

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from collections.abc import Mapping as Map
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from gaitsim.analysis.models.moment_arms import warnings
 from gaitsim.cluster.episodes import episode_models
+from gaitsim.components.bibliography import keys_of, read_bibliography, unknown_key
+from gaitsim.errors import Fault
 from gaitsim.simulation.moment_arms import moment_arms
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.study import variants
+from gaitsim.study.known import Compared, compared
+from gaitsim.study.records import BadRecord, Value, read_record
 from gaitsim.study.starts import Starts
 
 if TYPE_CHECKING:
     from gaitsim.analysis.models.step_convergence import StepConvergence
-    from gaitsim.errors import Fault
+    from gaitsim.components.find import Library
     from gaitsim.model import Model
     from gaitsim.simulation.moment_arms import MomentArm
     from gaitsim.spec.study import Variant
@@ -28,7 +33,9 @@ class Soundness:
     """What a check found of a spec that is valid.
 
     rows, models: of its study; one without a study. notices: what a reader should know. doubts: what is unusual.
-    arms: of each path about each hinge. convergence: of each model, what a half and a quarter of the step change.
+    arms: of each path about each hinge.
+    known: values that it reproduces, beside its record as far as there is one. convergence: of each model, what a half
+    and a quarter of the step change.
     """
 
     rows: Sequence[Variant]
@@ -36,6 +43,7 @@ class Soundness:
     notices: Sequence[str]
     doubts: Sequence[Fault]
     arms: Sequence[MomentArm]
+    known: Sequence[Compared]
     convergence: Sequence[StepConvergence]
 
 
@@ -54,12 +62,31 @@ def checked(opening: Opening, convergence: bool, listener: Listener) -> Soundnes
     for notice in notices:
         listener.say(notice)
     arms = moment_arms(models[0])
-    doubts = [*starts.unusual, *warnings(arms)]
+    doubts = [*starts.unusual, *warnings(arms), *_unknown_sources(models[0], source.library)]
     for doubt in doubts:
         listener.say(f"warning: {doubt}")
     with listener.waiting("simulating"):
         found = _convergence_of(models, listener) if convergence else []
-    return Soundness(rows, models, notices, doubts, arms, found)
+    return Soundness(rows, models, notices, doubts, arms, compared(models[0].reproduces, _recorded(opening)), found)
+
+
+def _unknown_sources(model: Model, library: Library) -> Iterator[Fault]:
+    """Sources of known values that no bibliography has."""
+    keys = set(read_bibliography(library.folders)) if model.reproduces else set()
+    for known in model.reproduces:
+        for key in keys_of(known.source):
+            if key not in keys:
+                yield Fault(unknown_key(key, keys), known.mark, "reproduces")
+
+
+def _recorded(opening: Opening) -> Map[str, Value]:
+    """The numbers of the first run as recorded; none of a result, of a spec with settings, and without a record."""
+    if opening.names_result or opening.settings:
+        return {}
+    try:
+        return read_record(opening.path).runs[0].numbers
+    except BadRecord:
+        return {}
 
 
 def _convergence_of(models: Sequence[Model], listener: Listener) -> list[StepConvergence]:

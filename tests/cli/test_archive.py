@@ -8,8 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from gaitsim.components.bibliography import keys_of, read_bibliography
 from gaitsim.components.find import shipped_folder, shipped_specs
 from gaitsim.study.records import Value, read_record, record_path
+from gaitsim.text.document import plain, read
 
 from .commands import Said, gaitsim
 
@@ -55,6 +57,64 @@ def test_the_list_says_what_models_are_and_what_they_did(capsys: pytest.CaptureF
     assert (round(value, 3), unit) == (0.163, "m")
     told = " ".join(gaitsim(capsys, "archive", "list", *QUICK).out.split())
     assert "hopping_geyer2003 Hopping by positive force feedback" in told and "apex_height 0.16298 m" in told
+
+
+KNOWN = """\
+reproduces:
+  - {what: Height, metric: apex_height, value: 16 cm, tolerance: 5 cm, source: geyer2003}
+  - {what: Force, metric: peak_force, value: 3 kN, tolerance: 1 N, source: "geyer2003: made up"}
+  - {what: Frequency, metric: hopping_frequency, value: 1.4 Hz, source: "definition: made up"}
+"""
+
+
+def test_known_values_stand_beside_those_of_the_model(hopper: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = SPEC.read_text(encoding="utf-8")
+    SPEC.write_text(text[: text.index("reproduces:")] + KNOWN, encoding="utf-8")
+    unknown = json.loads(gaitsim(capsys, "archive", "list", str(SPEC), "--json").out)["models"][0]["reproduces"]
+    assert [(row["known"], row["model"], row["holds"]) for row in unknown] == [
+        (16, None, None),
+        (3, None, None),
+        (1.4, None, None),
+    ]
+    gaitsim(capsys, "archive", "record", str(SPEC))
+    recorded = read_record(SPEC).runs[0].numbers
+    height, force = recorded["apex_height"].value, recorded["peak_force"].value
+    assert height is not None and force is not None
+    (model,) = json.loads(gaitsim(capsys, "archive", "list", str(SPEC), "--json").out)["models"]
+    first, second, third = model["reproduces"]
+    assert (first["unit"], first["source"], first["holds"]) == ("cm", "geyer2003", True)
+    assert first["model"] == pytest.approx(100 * height) and first["difference"] == pytest.approx(100 * height - 16)
+    assert second["model"] == pytest.approx(force / 1000) and second["holds"] is False
+    assert third["holds"] is None and third["share"] == pytest.approx(third["model"] / 1.4 - 1)
+    said = " ".join(gaitsim(capsys, "archive", "list", str(SPEC)).out.split())
+    assert "1 of 2 within tolerance, differs by up to" in said
+    assert f"hopper.yaml Height apex_height 16 cm {100 * height:.9g} cm" in said
+    checked = gaitsim(capsys, "check", str(SPEC))
+    assert f"{100 * height:.9g} cm" in checked.out
+    # With settings it is another model than the recorded one.
+    other = json.loads(gaitsim(capsys, "check", str(SPEC), "--set", "feedback.gain=3", "--json").out)
+    assert [row["model"] for row in other["reproduces"]] == [None, None, None]
+
+
+def test_what_a_parent_reproduces_a_spec_need_not(hopper: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    Path("child.yaml").write_text("gaitsim: 1\nextends: hopper.yaml\n", encoding="utf-8")
+    assert json.loads(gaitsim(capsys, "check", "child.yaml", "--json").out)["reproduces"] == []
+
+
+def test_a_source_that_no_bibliography_has_is_told(hopper: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    text = SPEC.read_text(encoding="utf-8")
+    SPEC.write_text(text[: text.index("reproduces:")] + KNOWN.replace("geyer2003}", "geyer2033}"), encoding="utf-8")
+    said = gaitsim(capsys, "check", str(SPEC))
+    place = f"hopper.yaml:{1 + text[: text.index('reproduces:')].count(chr(10)) + 1}:5"
+    words = "reproduces: the source geyer2033 is in no references.bib. Did you mean geyer2003?"
+    assert said.code == 0 and f"warning: {place}: {words}" in said.err
+
+
+@pytest.mark.parametrize("name", shipped_specs())
+def test_sources_of_known_values_are_in_the_bibliography(name: str) -> None:
+    keys = read_bibliography((shipped_folder(),))
+    rows = plain(read(shipped_specs()[name])).get("reproduces", [])
+    assert [key for row in rows for key in keys_of(row["source"]) if key not in keys] == []
 
 
 @pytest.mark.slow
