@@ -1,10 +1,14 @@
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from gaitsim.analysis.muscles.energies import Balance, balance, energy_figures
+from gaitsim.analysis.replays.replay import replayed
 from tests.analysis.replays import cut, of_spec, of_text
+from tests.simulation.models import ROOT, model
 
 BALL = """
 gaitsim: 1
@@ -154,6 +158,25 @@ def test_the_figures_name_every_layer_and_say_the_residual() -> None:
     assert "total" in labels
     assert axes.get_ylabel() == "energy (J)"
     assert "Residual" in exchanged.caption and "J at the end" in exchanged.caption
+
+
+def test_a_model_of_many_muscles_shows_the_largest_energies_and_sums_the_others(tmp_path: Path) -> None:
+    walker = ROOT / "specs" / "walking_geyer2010.yaml"
+    added = "parts: {energy: {use: sensor/mechanical_energy}}"
+    spec = tmp_path / "walker.yaml"
+    spec.write_text(f"gaitsim: 1\nextends: {walker}\n{added}\n", encoding="utf-8")
+    replay = replayed(model(spec, [("simulate.duration", "2 s")]), spec)
+    whole = balance(replay)
+    assert whole is not None and len(whole.exchanged) > 20
+    stacked, exchanged = energy_figures(replay)
+    layers, lines = stacked.figure.axes[0], exchanged.figure.axes[0]
+    names = lines.get_legend_handles_labels()[1]
+    assert len(names) == 7 and "created at paths" in names and names[-2].endswith("others")
+    ends = [line.get_ydata()[-1] for line in lines.lines[:-1]]
+    assert np.sum(ends) == pytest.approx(lines.lines[-1].get_ydata()[-1] - whole.residual[-1], abs=1e-9)
+    assert {"kinetic", "potential"} < set(layers.get_legend_handles_labels()[1])
+    for axes in (layers, lines):
+        assert axes.get_position().height > 0.2
 
 
 def test_without_a_sensor_there_is_no_balance() -> None:

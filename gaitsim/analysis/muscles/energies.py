@@ -19,6 +19,7 @@ from gaitsim.units import parse_unit
 
 _CYCLES = 6  # more cannot be told apart
 _LEAST = 1e-9  # J; less is not worth a colour
+_SHOWN = 6  # more names leave no room for the curves
 CREATED = "created at paths"
 
 
@@ -151,15 +152,27 @@ def energy_figures(replay: Replay) -> list[Drawing]:
     return [_stacked(replay, whole, part, said), _exchanged(replay, whole)]
 
 
+def _largest(energies: Mapping[str, Floats]) -> dict[str, Floats]:
+    """The energies that swing most, in their order; all others as one sum, so that the whole stays the same."""
+    if len(energies) <= _SHOWN:
+        return dict(energies)
+    by_swing = sorted(energies, key=lambda name: (name != CREATED, -float(np.ptp(energies[name]))))
+    chosen = by_swing[: _SHOWN - 1]
+    found = {name: values for name, values in energies.items() if name in chosen}
+    others = [values for name, values in energies.items() if name not in chosen]
+    return found | {f"{len(others)} others": np.sum(others, axis=0)}
+
+
 def _stacked(replay: Replay, whole: Balance, part: Replay, said: str) -> Drawing:
     times = part.times
     kept = (replay.times >= times[0]) & (replay.times <= times[-1])
     shown = np.linspace(0, len(times) - 1, min(len(times), 1200)).astype(int)
     lowest = whole.stored["potential"][kept].min() if "potential" in whole.stored else 0.0
     layers = {name: values[kept] - (lowest if name == "potential" else 0.0) for name, values in whole.stored.items()}
+    layers = _largest(layers)
     figure, (axes,) = panels(1, 1, height=3.2)
     stack = [values[shown] for values in layers.values()]
-    axes.stackplot(times[shown], stack, labels=list(layers), colors=PALETTE[:6], alpha=0.75, linewidth=0)
+    axes.stackplot(times[shown], stack, labels=list(layers), colors=PALETTE[:_SHOWN], alpha=0.75, linewidth=0)
     axes.plot(times[shown], np.sum(stack, axis=0), color="black", linewidth=1.2, label="total")
     shade_stance(axes, part)
     axes.margins(x=0)
@@ -180,7 +193,8 @@ def _exchanged(replay: Replay, whole: Balance) -> Drawing:
     part, said = shown_part(replay, _CYCLES)
     kept = (times >= part.times[0]) & (times <= part.times[-1])
     figure, (axes, rest) = panels(2, 1, height=2.3)
-    for name, values in whole.exchanged.items():
+    exchanged = _largest(whole.exchanged)
+    for name, values in exchanged.items():
         axes.plot(*thinned(times[kept], values[kept]), label=name)
     axes.plot(*thinned(times[kept], whole.change[kept]), "--", color="black", label="change of the total")
     axes.set_ylabel(labelled("energy since the start", "J"))
@@ -190,7 +204,7 @@ def _exchanged(replay: Replay, whole: Balance) -> Drawing:
     for panel in (axes, rest):
         panel.set_xlabel(labelled("time", "s"))
         panel.margins(x=0)
-    ends = ", ".join(f"{name} {values[-1]:+.4g} J" for name, values in whole.exchanged.items())
+    ends = ", ".join(f"{name} {values[-1]:+.4g} J" for name, values in exchanged.items())
     largest = float(np.abs(residual).max())
     share = f", {100 * largest / whole.turned_over:.2g} % of the largest swing" if whole.turned_over > 0 else ""
     paths = ""
