@@ -104,7 +104,9 @@ def _laid(spec: Mapping, words: tuple[str, ...], value: Node, mark: Mark) -> Map
     faults = Faults()
     if len(words) == 2 and words[0] == "parameters":
         _check_declares(spec, words[1], value, mark, faults)
-        faults.raise_if_any()
+    elif words[0] == "parameters":
+        _check_is_no_part(spec, words, mark, faults)
+    faults.raise_if_any()
     result = _with(spec, words, (), value, mark, faults)
     faults.raise_if_any()
     assert isinstance(result, Mapping)  # a spec stays a mapping
@@ -128,6 +130,14 @@ def _check_declares(spec: Mapping, name: str, value: Node, mark: Mark, faults: F
         faults.add(f"the spec itself has no parameter {name}. {hint}", mark, f"parameters.{name}")
         return
     faults.add(f"{rule}.", mark, f"parameters.{name}")
+
+
+def _check_is_no_part(spec: Mapping, words: tuple[str, ...], mark: Mark, faults: Faults) -> None:
+    """What stands below `parameters.NAME` belongs to a parameter of the spec, not to a part of that name."""
+    parts = spec.entries.get("parts")
+    if isinstance(parts, Mapping) and words[1] in parts.entries:
+        wrong, right = ".".join(words), ".".join(words[1:])
+        faults.add(f"a value of a part goes by the part's name; write {right} instead of {wrong}.", mark, wrong)
 
 
 def _addresses(node: Node | None, name: str) -> Iterator[str]:
