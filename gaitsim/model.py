@@ -199,6 +199,9 @@ class Model:
     reproduces: tuple[KnownValue, ...] = ()
     dropped: frozenset[Mark] = frozenset()  # words of the spec that a swapped-in part lacks
 
+    def __repr__(self) -> str:
+        return f"<Model {self.name}: {len(self.parts)} parts, {len(self.free)} tuned>"
+
     @property
     def start(self) -> list[float]:
         """The values of the free numbers that `run` uses."""

@@ -64,6 +64,9 @@ class Analysis:
     replays: Sequence[Replay]
     products: Products
 
+    def __repr__(self) -> str:
+        return f"<Analysis of {len(self.replays)} runs: {len(self.products.figures)} figures>"
+
 
 def analyzed(openings: Sequence[Opening], candidates: Sequence[str], wanted: Wanted, listener: Listener) -> Analysis:
     """Run results or specs once more, and make what is wanted of them.

@@ -157,6 +157,10 @@ class Hunt:
     before: list[Row] = field(default_factory=list)
     rows: list[Row] = field(default_factory=list)
 
+    def __repr__(self) -> str:
+        found = "; ".join(f"{limit.address} holds up to {limit.last}" for limit in self.limits)
+        return f"<Hunt: {found}; {len(self.rows)} runs; {self.folder or 'not kept'}>"
+
     def run(self, listener: Listener) -> None:
         """Find all limits, and keep each run as it ends.
 

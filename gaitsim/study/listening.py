@@ -1,7 +1,8 @@
-"""What hears of a study while it goes on; in a notebook no one does."""
+"""What hears of a study while it goes on: the command line, or the log of a notebook."""
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING, Protocol
@@ -26,19 +27,22 @@ class Listener(Protocol):
         """A block that takes its time and tells nothing of itself."""
 
 
-class Silence:
-    """A listener for a notebook: what is said stands in the values that come back."""
+class Logged:
+    """A listener for a notebook: warnings and errors are logged as warnings, other notices as information."""
 
     def say(self, text: str) -> None:
-        """Nothing."""
+        """Log a notice, or a warning."""
+        level = logging.WARNING if text.startswith("warning:") else logging.INFO
+        logging.getLogger("gaitsim").log(level, "gaitsim: %s", text)
 
     def say_error(self, error: GaitsimError) -> None:
-        """Nothing."""
+        """Log an error."""
+        logging.getLogger("gaitsim").warning("gaitsim: %s", error)
 
     def progress(self, what: str) -> Callable[[int, int], None]:  # noqa: ARG002 (as of a listener)
-        """Told in vain."""
+        """Progress is not logged."""
         return lambda done, count: None
 
     def waiting(self, what: str) -> AbstractContextManager[None]:  # noqa: ARG002
-        """Nothing is said."""
+        """Waiting is not logged."""
         return nullcontext()

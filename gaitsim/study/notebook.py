@@ -1,13 +1,12 @@
 """What a notebook calls: each function does what the command of its name does, and returns what that prints.
 
-Keywords bear the names of options, and errors speak of these. Nothing is printed, and a mistake raises
+Keywords bear the names of options, and errors speak of these. Warnings are logged, and a mistake raises
 `gaitsim.errors.GaitsimError`. A run that fails is no error: its outcome says so.
 """
 
 from __future__ import annotations
 
 import json
-import logging
 import time
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -15,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gaitsim.folders import results_folder
-from gaitsim.study.listening import Silence
+from gaitsim.study.listening import Logged
 from gaitsim.study.opening import Opening
 
 if TYPE_CHECKING:
@@ -100,7 +99,7 @@ def run(
 
     Returns:
         The runs: `outcomes` with status, metrics (in declared units) and score, `table()`, `folder`, `notices`.
-        What could not be kept is in `unsaved`, and logged.
+        What could not be kept is in `unsaved`. Warnings are logged.
 
     Raises:
         GaitsimError: The spec, a component, a result or an argument is wrong.
@@ -112,10 +111,10 @@ def run(
     file = None if out is None else Path(out)
     drawn = draws_asked(draws, within, seed, varied, file)
     opened = opening(path, set, library, start, trust, candidate, results)
-    runs = prepared(opened, varied, drawn, mode, Places(_root(results) if save else None, file, every), Silence())
-    runs.run(Silence())
+    runs = prepared(opened, varied, drawn, mode, Places(_root(results) if save else None, file, every), Logged())
+    runs.run(Logged())
     if runs.unsaved:
-        logging.getLogger("gaitsim").warning("gaitsim: %s", runs.unsaved)
+        Logged().say_error(runs.unsaved)
     return runs
 
 
@@ -166,8 +165,8 @@ def limit(
     opened = opening(path, set, library, start, trust, candidate, results)
     ranges = [f"{address}={ends}" for address, ends in vary.items()]
     root = _root(results) if save else None
-    hunt = hunted(opened, ranges, until, Scan(points, tolerance), origin, mode, root, Silence())
-    hunt.run(Silence())
+    hunt = hunted(opened, ranges, until, Scan(points, tolerance), origin, mode, root, Logged())
+    hunt.run(Logged())
     if hunt.keeping.error:
         raise hunt.keeping.error
     return hunt
@@ -204,8 +203,8 @@ def cycle(
     """
     from gaitsim.study.cycles import cycle as found
 
-    silence = Silence()
-    return found(opening(path, set, library, start, trust, candidate, results), mode, silence, silence.progress(""))
+    log = Logged()
+    return found(opening(path, set, library, start, trust, candidate, results), mode, log, log.progress(""))
 
 
 @dataclass(frozen=True)
@@ -216,6 +215,11 @@ class Search:
     progress: Progress
     adoption: Adoption | None
     wall_seconds: float
+
+    def __repr__(self) -> str:
+        progress = self.progress
+        score = "none" if self.score is None else f"{self.score:.6g}"
+        return f"<Search: best score {score} after {progress.evaluations} evaluations; {self.folder}>"
 
     @property
     def folder(self) -> Path:
@@ -295,8 +299,8 @@ def optimize(
     workplace = Workplace(workers, scheduler is not None or file is not None, scheduler, file)
     workplace.check()
     tuning = (resumed if resume else begun)(request, _root(results))
-    began, silence = time.perf_counter(), Silence()
-    progress = tuning.run(workplace, lambda progress: None, silence.say)
+    began, log = time.perf_counter(), Logged()
+    progress = tuning.run(workplace, lambda progress: None, log.say)
     wall = time.perf_counter() - began
     adoption = adopted(tuning, request, workplace, progress, force) if adopt else None
     return Search(tuning, progress, adoption, wall)
@@ -335,7 +339,7 @@ def analyze(
     many = {name: _several(value) for name, value in wanted.items() if name in _MANY}
     folder = {"folder": Path(wanted["folder"])} if wanted.get("folder") is not None else {}
     opened = [opening(path, set, library, start, trust) for path in paths]
-    return analyzed(opened, _several(candidate), Wanted(**(wanted | many | folder)), Silence())
+    return analyzed(opened, _several(candidate), Wanted(**(wanted | many | folder)), Logged())
 
 
 def check(
@@ -363,7 +367,7 @@ def check(
     """
     from gaitsim.study.soundness import checked
 
-    return checked(opening(path, set, library, start=not convergence, trust=trust), convergence, Silence())
+    return checked(opening(path, set, library, start=not convergence, trust=trust), convergence, Logged())
 
 
 _MANY = ("plot", "return_map", "export", "scopes", "formats")

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 from gaitsim.errors import ExitCode, GaitsimError
 from gaitsim.exchange.formats import FORMATS, Export
 from gaitsim.results.store import CannotSave
-from gaitsim.study.listening import Listener, Silence
+from gaitsim.study.listening import Listener, Logged
 
 if TYPE_CHECKING:
     from gaitsim.analysis.drawings.drawing import Drawing, Figures
@@ -38,7 +38,7 @@ class Products:
     report: Path | None = None
     faults: list[GaitsimError] = field(default_factory=list)
     lacks: list[str] = field(default_factory=list)
-    listener: Listener = field(default_factory=Silence)
+    listener: Listener = field(default_factory=Logged)
 
     @property
     def exit_code(self) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -88,6 +89,11 @@ class Runs:
     keeping: Keeping
     notices: list[str]
     outcomes: list[Outcome] = field(default_factory=list)
+
+    def __repr__(self) -> str:
+        counts = Counter(outcome.status for outcome in self.outcomes)
+        ended = ", ".join(f"{count} {status}" for status, count in counts.items()) or "none made yet"
+        return f"<Runs of {self.models[0].name}: {ended}; {self.folder or 'not kept'}>"
 
     @property
     def single(self) -> bool:

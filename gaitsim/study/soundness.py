@@ -46,6 +46,9 @@ class Soundness:
     known: Sequence[Compared]
     convergence: Sequence[StepConvergence]
 
+    def __repr__(self) -> str:
+        return f"<Soundness of {self.models[0]}: {len(self.doubts)} doubts, {len(self.notices)} notices>"
+
 
 def checked(opening: Opening, convergence: bool, listener: Listener) -> Soundness:
     """Resolve and compile what is opened; simulate it only for its convergence.

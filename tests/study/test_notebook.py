@@ -134,3 +134,24 @@ def test_what_cannot_be_asked_is_refused(spec: Path) -> None:
     Path("results").write_text("")
     with pytest.raises(CannotSave, match="results: this is a file"):
         gaitsim.run(spec)
+
+
+def test_what_comes_back_is_shown_in_a_line(spec: Path) -> None:
+    made = gaitsim.run(spec, vary={HEIGHT: ["30 cm", "1 km"]}, save=False)
+    hunt = gaitsim.limit(spec, {"simulate.duration": "0.1 s:0.5 s"}, points=3, save=False)
+    search = gaitsim.optimize(spec, smoke=True, workers=0)
+    shown = [repr(each) for each in (made, made.models[0], hunt, search, gaitsim.check(spec))]
+    assert shown[:2] == ["<Runs of stone: 1 stopped, 1 completed; not kept>", "<Model stone: 5 parts, 0 tuned>"]
+    assert shown[2].startswith("<Hunt: simulate.duration holds up to 0.")
+    assert "best score" in shown[3] and str(search.folder) in shown[3]
+    assert all(len(each) < 200 for each in shown)
+
+
+def test_a_doubtful_start_is_logged(spec: Path, caplog: pytest.LogCaptureFixture) -> None:
+    guide = "  guide: {use: joint/vertical, parent: world, child: stone.center}\n"
+    ground = "  ground: {use: contact/spring_damper, frame: stone.center, stiffness: 1 N/m, damping: 0 N s/m}\n"
+    text = STONE.replace(guide, guide + ground)
+    spec.write_text(text.replace("{value: 40 cm, tune: [20 cm, 60 cm]}", "-10 cm"), encoding="utf-8")
+    made = gaitsim.run(spec, save=False)
+    assert len(made.warnings) == 1 and "ground.height" in made.warnings[0]
+    assert [f"gaitsim: {each}" for each in (*made.notices, *made.warnings)] == caplog.messages
