@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import shutil
 import sys
 import time
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -12,6 +13,7 @@ from dataclasses import dataclass
 from threading import Event, Thread
 from typing import Any
 
+from gaitsim.cli.table import rows_of
 from gaitsim.errors import ExitCode, GaitsimError
 
 PLAIN_EVERY = 5.0  # seconds between lines of progress where stderr is no terminal
@@ -104,16 +106,13 @@ def give_json(data: Any) -> None:
 
 def give_table(columns: Sequence[str], rows: Iterable[Sequence[str]], title: str = "") -> None:
     """A table on stdout; as wide as it must be where stdout is no terminal."""
-    from rich.console import Console
-    from rich.table import Table
-
-    table = Table(title=title or None, title_justify="left", header_style="bold", box=None)
-    for column in columns:
-        table.add_column(_plain(column), overflow="fold")
-    for row in rows:
-        table.add_row(*(_plain(cell) for cell in row))
-    wide = None if sys.stdout.isatty() else 10_000
-    Console(width=wide, highlight=False, soft_wrap=not sys.stdout.isatty()).print(table)
+    terminal = sys.stdout.isatty()
+    heading, *others = rows_of(columns, [*rows], shutil.get_terminal_size().columns if terminal else None)
+    if title:
+        print(f" {title}")
+    print(*(f"\x1b[1m{line}\x1b[0m" if terminal else line for line in heading), sep="\n")
+    for line in (line for row in others for line in row):
+        print(line)
 
 
 def say_error(error: GaitsimError) -> None:
@@ -150,12 +149,6 @@ def error_data(error: GaitsimError) -> dict[str, Any]:
 def shown(number: float | None) -> str:
     """A number for a table."""
     return "-" if number is None or not math.isfinite(number) else f"{number:.5g}"
-
-
-def _plain(cell: str) -> str:
-    from rich.markup import escape
-
-    return escape(cell)
 
 
 def _finite(data: Any) -> Any:

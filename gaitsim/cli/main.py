@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import gc
 import io
 import os
 import sys
 import traceback
-from typing import Annotated
+from collections.abc import Callable, Mapping, Sequence
+from typing import Annotated, Any
 
 import typer
 
@@ -35,33 +37,30 @@ from gaitsim.cli import (
 from gaitsim.cli.interrupts import heard_once
 from gaitsim.errors import ExitCode, GaitsimError, Usage
 
-app = typer.Typer(
-    help="Simulate, tune and analyze neuromuscular models of gait.",
-    no_args_is_help=True,
-    pretty_exceptions_enable=False,
-    rich_markup_mode=None,
-    context_settings={"help_option_names": ["-h", "--help"]},
-)
-app.command("run")(run.run)
-app.command("optimize")(optimize.optimize)
-app.command("limit")(limit.limit)
-app.command("cycle")(cycle.cycle)
-app.command("analyze")(analyze.analyze)
-app.command("view")(view.view)
-app.command("profile")(profile.profile)
-app.command("check")(check.check)
-app.command("show")(show.show)
-app.command("cite")(cite.cite)
-app.command("new")(new.new)
-app.command("projects")(projects.projects)
-app.command("schema")(schema.schema)
 library.app.command("used-by")(library_uses.used_by)
 library.app.command("test")(library_uses.test)
 library.app.command("promote")(library_promote.promote)
 library.app.command("history")(library_uses.history)
-app.add_typer(library.app, name="library")
-app.add_typer(archive.app, name="archive")
-app.add_typer(results.app, name="results")
+
+# Objects made before Python looks for garbage. What is imported stays, so looking after every 700 is in vain.
+_GARBAGE = 20_000
+
+COMMANDS: dict[str, Callable[..., Any]] = {
+    "run": run.run,
+    "optimize": optimize.optimize,
+    "limit": limit.limit,
+    "cycle": cycle.cycle,
+    "analyze": analyze.analyze,
+    "view": view.view,
+    "profile": profile.profile,
+    "check": check.check,
+    "show": show.show,
+    "cite": cite.cite,
+    "new": new.new,
+    "projects": projects.projects,
+    "schema": schema.schema,
+}
+GROUPS: dict[str, typer.Typer] = {"library": library.app, "archive": archive.app, "results": results.app}
 
 
 def _version(wanted: bool) -> None:
@@ -70,7 +69,6 @@ def _version(wanted: bool) -> None:
         raise typer.Exit
 
 
-@app.callback()
 def _main(
     version: Annotated[
         bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
@@ -79,8 +77,37 @@ def _main(
     pass
 
 
+def _program(commands: Mapping[str, Callable[..., Any]], groups: Mapping[str, typer.Typer]) -> typer.Typer:
+    """The program with some commands and groups of commands."""
+    made = typer.Typer(
+        help="Simulate, tune and analyze neuromuscular models of gait.",
+        no_args_is_help=True,
+        pretty_exceptions_enable=False,
+        rich_markup_mode=None,
+        context_settings={"help_option_names": ["-h", "--help"]},
+    )
+    made.callback()(_main)
+    for name, command in commands.items():
+        made.command(name)(command)
+    for name, group in groups.items():
+        made.add_typer(group, name=name)
+    return made
+
+
+app = _program(COMMANDS, GROUPS)
+
+
+def program_for(words: Sequence[str]) -> typer.Typer:
+    """The program with the one command that is called, as Typer would build all; the whole one if that is none."""
+    name = words[0] if words else ""
+    if name in COMMANDS:
+        return _program({name: COMMANDS[name]}, {})
+    return _program({}, {name: GROUPS[name]}) if name in GROUPS else app
+
+
 def main(arguments: list[str] | None = None) -> None:
     """Run one command; the exit code tells the kind of failure."""
+    gc.set_threshold(_GARBAGE)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a name on the disk may hold any bytes
@@ -98,7 +125,7 @@ def _ran(words: list[str]) -> object:
     """What a command returns, or the exit code of its failure."""
     try:
         _check_words(words)
-        return app(args=words, prog_name="gaitsim", standalone_mode=False)
+        return program_for(words)(args=words, prog_name="gaitsim", standalone_mode=False)
     except GaitsimError as error:
         console.say_error(error)
         if "--json" in words:

@@ -183,7 +183,9 @@ def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], Mapp
 
 
 def without(node: Mapping, *words: str) -> Mapping:
-    """The mapping without some of its keys."""
+    """The mapping without some of its keys; the same one if it has none of them."""
+    if node.entries.keys().isdisjoint(words):
+        return node
     entries = {name: inner for name, inner in node.entries.items() if name not in words}
     return Mapping(entries, {name: node.keys[name] for name in entries}, node.mark, node.swapped)
 

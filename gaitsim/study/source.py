@@ -39,10 +39,19 @@ class Source:
     recorded: Map[str, Any] = field(default_factory=dict)
     origin: str = ""
     place: Path = Path()
+    _resolved: dict[int, tuple[Mapping, Model]] = field(default_factory=dict, repr=False)  # by the id of the document
 
     def model(self, document: Mapping | None = None) -> Model:
-        """The model of the document, or of a variant of it."""
-        return resolve(document or self.document, self.library, self.name).started_at(self.starts, self.origin)
+        """The model of the document, which is resolved once, or of a variant of it."""
+        return self._written(document or self.document).started_at(self.starts, self.origin)
+
+    def _written(self, document: Mapping) -> Model:
+        """The model with the starts that a document says."""
+        if document is not self.document:
+            return resolve(document, self.library, self.name)
+        if id(document) not in self._resolved:
+            self._resolved[id(document)] = document, resolve(document, self.library, self.name)
+        return self._resolved[id(document)][1]
 
     def bundle(self, models: Iterable[Model]) -> Bundle:
         """The source as files, given the models made of it."""

@@ -7,13 +7,19 @@ import sys
 from pathlib import Path
 
 import pytest
+import typer.main
+
+from gaitsim.cli.main import app, program_for
+from gaitsim.study import source
+from gaitsim.text.document import Mapping
 
 from .commands import gaitsim
 
-SPEC = Path(__file__).resolve().parents[2] / "specs" / "hopping_geyer2003.yaml"
+SPECS = Path(__file__).resolve().parents[2] / "specs"
+SPEC = SPECS / "hopping_geyer2003.yaml"
 UNNEEDED = {
     *("PIL", "cma", "dask", "distributed", "glfw", "h5netcdf", "h5py", "imageio_ffmpeg", "jinja2", "matplotlib"),
-    *("numba", "pandas", "pymoo", "scipy", "xarray"),
+    *("numba", "pandas", "pymoo", "rich", "scipy", "xarray"),
 }
 
 
@@ -32,3 +38,26 @@ def test_a_run_imports_nothing_that_it_does_not_need(
     code_of_exit, *modules = ran.stderr.splitlines()[-1].split()
     assert code_of_exit == "0"
     assert {module.partition(".")[0] for module in modules} & UNNEEDED == set()
+
+
+@pytest.mark.parametrize(("words", "commands"), [(["run", "x"], ["run"]), (["library", "list"], ["library"])])
+def test_one_command_is_built_if_one_is_called(words: list[str], commands: list[str]) -> None:
+    assert [*typer.main.get_group(program_for(words)).commands] == commands
+
+
+@pytest.mark.parametrize("words", [[], ["--help"], ["rnu"]], ids=str)
+def test_all_commands_are_built_if_none_is_called(words: list[str]) -> None:
+    assert program_for(words) is app
+
+
+def test_a_tuned_spec_is_resolved_once(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    names, resolve = [], source.resolve
+
+    def counted(document: Mapping, library: object, name: str) -> object:
+        names.append(name)
+        return resolve(document, library, name)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(source, "resolve", counted)
+    spec = str(SPECS / "walking_geyer2010.yaml")
+    assert gaitsim(capsys, "run", spec, "--set", "simulate.duration=10 ms", "--no-save").code == 0
+    assert names == ["walking_geyer2010"]
