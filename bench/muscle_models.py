@@ -56,8 +56,8 @@ def tuned(muscle: str, words: Sequence[str]) -> Row:
         command = [sys.executable, "-m", "gaitsim.cli.main", "optimize", str(SPEC), "--set", f"extensor.use={muscle}"]
         ran = subprocess.run([*command, *words, "--json"], cwd=folder, stdout=subprocess.PIPE, text=True, check=True)
         search = json.loads(ran.stdout)
-        simulator = Simulator(Opening(Path(folder) / search["result"]).source().model())
-    before = Simulator(Opening(SPEC, (f"extensor.use={muscle}",), tuned=False).source().model()).run()
+        simulator = Simulator(Opening(Path(folder) / search["result"]).open().model())
+    before = Simulator(Opening(SPEC, (f"extensor.use={muscle}",), tuned=False).open().model()).run()
     after = simulator.run(recorded=True)
     given, taken = work_per_hop(after)
     return Row(

@@ -105,8 +105,8 @@ def _own_memory(process: psutil.Process) -> float:
 
 
 def _bundle(duration: float) -> Bundle:
-    source = Opening(SPEC, (f"simulate.duration={duration!r} s",), tuned=False).source()
-    return source.bundle([source.model()])
+    opened = Opening(SPEC, (f"simulate.duration={duration!r} s",), tuned=False).open()
+    return opened.bundle([opened.model()])
 
 
 def _duration(seconds: float) -> float:

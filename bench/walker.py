@@ -95,7 +95,7 @@ def contacts(_: argparse.Namespace, console: Console) -> None:
         for step in STEPS:
             used = [f"use_for.contact.use=contact/{contact}", f"simulate.step={step}"]
             used += [SOFT] if contact == "yielding_sole" else []
-            found = Simulator(Opening(SPEC, tuple(used), tuned=False).source().model()).run()
+            found = Simulator(Opening(SPEC, tuple(used), tuned=False).open().model()).run()
             table.add_row(contact, step, *said(found.metrics))
     console.print(table)
 
@@ -161,7 +161,7 @@ def swaps(words: argparse.Namespace, console: Console) -> None:
     """Another model for one kind of part: the archived values, and values tuned again from them."""
     table = Table("swap", "evaluations", *SHOWN.values(), title="Archived values with another model, then tuned again")
     for name, settings in SWAPS.items():
-        before = Simulator(Opening(SPEC, tuple(settings)).source().model()).run()
+        before = Simulator(Opening(SPEC, tuple(settings)).open().model()).run()
         table.add_row(name, "0", *said(before.metrics))
         with tempfile.TemporaryDirectory() as folder:
             evaluations, after = retuned(settings, words, words.keep or folder)
@@ -178,8 +178,8 @@ def retuned(settings: Sequence[str], words: argparse.Namespace, folder: str) -> 
     search = json.loads(ran.stdout)
     if ran.returncode:
         return search.get("evaluations", 0), {}
-    source = Opening(Path(folder) / search["result"], ("simulate.duration=20 s",)).source()
-    return search["evaluations"], Simulator(source.model()).run().metrics
+    opened = Opening(Path(folder) / search["result"], ("simulate.duration=20 s",)).open()
+    return search["evaluations"], Simulator(opened.model()).run().metrics
 
 
 TABLES = {"contacts": contacts, "seeds": seeds, "middle": middle, "swaps": swaps}

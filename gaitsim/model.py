@@ -121,7 +121,7 @@ class Group:
 class Connection:
     """A signal's way from an output to an input; `made_by` a part if no spec wrote it."""
 
-    source: str
+    sender: str
     target: str
     delay: int | None = None
     initial: int | None = None
@@ -282,7 +282,7 @@ def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> di
     """Every metric and its unit; one left open is that of the signal that is measured, or of the series it is like."""
     units = {f"{p.address}.{n}": o.unit for p in parts for n, o in p.type.outputs.items()}
     measured = {
-        c.target.rpartition(".")[0]: units[c.source]
+        c.target.rpartition(".")[0]: units[c.sender]
         for c in reversed(connections)
         if _input_unit(c.target, parts) == "*"
     }

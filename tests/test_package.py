@@ -116,9 +116,9 @@ def test_a_worker_runs_with_the_packages_that_the_page_on_clusters_lists(tmp_pat
     homes = metadata.packages_distributions()
     present = installed | {"gaitsim"}
     absent = [module for module, found in homes.items() if not {distribution(name) for name in found} & present]
-    source = Opening(ROOT / "specs" / "pendulum_pid.yaml", ("simulate.duration=100 ms",), tuned=False).source()
-    model = source.bundle([source.model()])
-    values = [free.start for free in source.model().free]
+    opened = Opening(ROOT / "specs" / "pendulum_pid.yaml", ("simulate.duration=100 ms",), tuned=False).open()
+    model = opened.bundle([opened.model()])
+    values = [free.start for free in opened.model().free]
     (tmp_path / "candidate").write_bytes(pickle.dumps((model, values)))
     words = [sys.executable, "-c", WORKER, json.dumps(absent), str(tmp_path / "candidate")]
     ran = subprocess.run(words, capture_output=True, text=True)

@@ -98,7 +98,7 @@ def _text(component: ComponentFile, picture: str) -> str:
         if rows:
             parts.append(f"**{heading}**\n\n{_table(rows, columns)}")
     language = "python" if component.path.suffix == ".py" else "yaml"
-    body = "\n".join(f"    {line}".rstrip() for line in component.source.splitlines())
+    body = "\n".join(f"    {line}".rstrip() for line in component.text.splitlines())
     parts.append(f'??? abstract "{found["file"]}"\n\n    ```{language}\n{body}\n    ```')
     return "\n\n".join(parts) + "\n"
 

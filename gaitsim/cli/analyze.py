@@ -127,8 +127,8 @@ def analyze(
         only=only,
         folder=folder,
     )
-    opened = [opening(path, settings, library, not start, trust, results=results) for path in paths]
-    found = analyzed(opened, candidate or (), wanted, console.Talk(json))
+    chosen = [opening(path, settings, library, not start, trust, results=results) for path in paths]
+    found = analyzed(chosen, candidate or (), wanted, console.Talk(json))
     _tell(found.replays, found.products, json)
     return found.products.exit_code
 

@@ -48,8 +48,8 @@ def check(
     from gaitsim.study.soundness import checked
 
     # With --convergence, what is simulated is what `run` would simulate.
-    opened = opening(spec, settings, library, tuned=convergence, trusted=trust, results=results)
-    sound = checked(opened, convergence, console.Talk(json))
+    chosen = opening(spec, settings, library, tuned=convergence, trusted=trust, results=results)
+    sound = checked(chosen, convergence, console.Talk(json))
     model, arms, found = sound.models[0], sound.arms, sound.convergence
     picture = folder / f"{model.name}.moment_arms.png" if plot and arms else None
     if picture is not None:

@@ -8,7 +8,7 @@ from gaitsim.cli import console
 from gaitsim.cli.options import Json, Libraries, Results, Set, Spec, Trust, opening
 
 if TYPE_CHECKING:
-    from gaitsim.study.source import Source
+    from gaitsim.study.opened import Opened
 
 
 def cite(
@@ -30,11 +30,11 @@ def cite(
     from gaitsim.components.bibliography import read_bibliography
     from gaitsim.results.citation import citations
 
-    source = opening(spec, settings, library, trusted=trust, results=results).source()
-    model = source.model()
+    opened = opening(spec, settings, library, trusted=trust, results=results).open()
+    model = opened.model()
     # A result keeps its components but no bibliography: that is the library's.
-    folders = [*source.library.folders, *opening(spec, None, library).library().folders]
-    found = citations(model, read_bibliography(folders), _algorithm(source))
+    folders = [*opened.library.folders, *opening(spec, None, library).library().folders]
+    found = citations(model, read_bibliography(folders), _algorithm(opened))
     if json:
         console.give_json(
             {
@@ -48,15 +48,15 @@ def cite(
         console.say(f"in words, to be cited by hand: {text} ({_few(places)})")
 
 
-def _algorithm(source: Source) -> tuple[str, ...]:
+def _algorithm(opened: Opened) -> tuple[str, ...]:
     """The keys of the search whose values are in use; none if nothing was tuned."""
     from gaitsim.optimization.algorithms import ALGORITHMS
     from gaitsim.spec.schema import optimize_section
 
-    if not source.starts:
+    if not opened.starts:
         return ()
-    searched = source.manifest.get("search", {}).get("algorithm")
-    entry = ALGORITHMS.get(searched or optimize_section(source.document).algorithm)
+    searched = opened.manifest.get("search", {}).get("algorithm")
+    entry = ALGORITHMS.get(searched or optimize_section(opened.document).algorithm)
     return entry.citations if entry else ()
 
 

@@ -37,9 +37,9 @@ def cycle(
     """
     from gaitsim.study.cycles import cycle as found
 
-    opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
+    chosen = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
     talk = console.Talk(json)
-    gait = found(opened, mode.value, talk, talk.progress("rounds"))
+    gait = found(chosen, mode.value, talk, talk.progress("rounds"))
     if json:
         console.give_json(_data(gait))
         return 0

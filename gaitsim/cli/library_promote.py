@@ -66,7 +66,7 @@ def promote(
     if done.users:
         give_tested(reference, done.users)
     if done.removed:
-        console.say(f"moved from {request.source}: {', '.join(str(path) for path in done.removed)}")
+        console.say(f"moved from {request.origin}: {', '.join(str(path) for path in done.removed)}")
     else:
-        console.say(f"{request.source} keeps its copy, because its specs do not look into {request.target}")
+        console.say(f"{request.origin} keeps its copy, because its specs do not look into {request.target}")
     return 0

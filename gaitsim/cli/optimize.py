@@ -71,10 +71,10 @@ def optimize(
     from gaitsim.study.searches import Request, begun, check_adoption, resumed
     from gaitsim.study.workplace import Workplace
 
-    opened = opening(spec, settings, library, tuned=False, trusted=trust, results=results)
-    check_adoption(opened, adopt, force)
+    chosen = opening(spec, settings, library, tuned=False, trusted=trust, results=results)
+    check_adoption(chosen, adopt, force)
     request = Request(
-        opening=opened,
+        opening=chosen,
         algorithm=algorithm,
         population=population,
         generations=generations,

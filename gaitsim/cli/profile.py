@@ -48,11 +48,11 @@ def profile(
     """
     from gaitsim.simulation.profile import profile as measured
 
-    source = opening(
+    opened = opening(
         spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results
-    ).source()
-    model = source.model(only_row(source, spec).document)
-    for notice in dict.fromkeys([*source.notices, *model.notices]):
+    ).open()
+    model = opened.model(only_row(opened, spec).document)
+    for notice in dict.fromkeys([*opened.notices, *model.notices]):
         console.say(notice)
     found = measured(model)
     costs = found.by_component() if components else found.costs
@@ -61,7 +61,7 @@ def profile(
         from gaitsim.analysis.drawings.drawing import save
         from gaitsim.analysis.models.costs import cost_figure
 
-        (picture,) = save([cost_figure(costs, found, source.name)], folder)
+        (picture,) = save([cost_figure(costs, found, opened.name)], folder)
     if json:
         console.give_json(_data(costs, found) | ({"plot": str(picture)} if plot else {}))
         return

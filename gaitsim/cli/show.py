@@ -32,11 +32,11 @@ def show(
     """
     from gaitsim.results.listing import connection_rows, parameter_rows, part_rows
 
-    source = opening(spec, settings, library, tuned=not start, trusted=trust, results=results).source()
-    model = source.model()
+    opened = opening(spec, settings, library, tuned=not start, trusted=trust, results=results).open()
+    model = opened.model()
     data: dict[str, Any] = {}
     if tree or not (parameters or connections or mjcf):
-        data["tree"] = [{**row, "library": source.library.serves(row["use"])} for row in part_rows(model)]
+        data["tree"] = [{**row, "library": opened.library.serves(row["use"])} for row in part_rows(model)]
     if parameters:
         data["parameters"] = parameter_rows(model)
     if connections:
@@ -45,7 +45,7 @@ def show(
         from gaitsim.compiler.mjcf import assemble
 
         data["mjcf"] = assemble(model, model.values()).xml
-    for notice in (*source.notices, *model.notices):
+    for notice in (*opened.notices, *model.notices):
         console.say(notice)
     if json:
         console.give_json(data)

@@ -39,14 +39,14 @@ def view(
     from gaitsim.analysis.replays.replay import replayed
     from gaitsim.animation import viewer
 
-    source = opening(
+    opened = opening(
         path, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results
-    ).source()
-    model = source.model()
-    for notice in (*source.notices, *model.notices):
+    ).open()
+    model = opened.model()
+    for notice in (*opened.notices, *model.notices):
         console.say(notice)
     viewer.check_display(path)
-    replay = replayed(model, path, manifest=source.manifest)
+    replay = replayed(model, path, manifest=opened.manifest)
     if replay.ending:
         console.say(replay.ending)
     viewer.view(replay, speed, paused)

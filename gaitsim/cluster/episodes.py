@@ -17,7 +17,7 @@ from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.resolve import resolve
 from gaitsim.spec.schema import optimize_section
 from gaitsim.spec.study import episodes
-from gaitsim.text.document import Mapping
+from gaitsim.text.document import MappingNode
 
 
 @dataclass(frozen=True)
@@ -63,7 +63,7 @@ def bundle_episodes(bundle: Bundle, mode: Mode) -> Episodes:
     return Episodes(tuple(Simulator(model, mode) for model in models), optimize_section(document).combine)
 
 
-def episode_models(document: Mapping, library: Library, name: str) -> list[Model]:
+def episode_models(document: MappingNode, library: Library, name: str) -> list[Model]:
     """The model of each episode; of the spec as it is, if it has none.
 
     Errors: InvalidSpec, also for an episode that changes what is tuned.

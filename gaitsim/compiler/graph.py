@@ -31,7 +31,7 @@ def schedule(model: Model, delayed: Iterable[Connection]) -> tuple[Call, ...]:
     for connection in model.connections:
         if id(connection) not in cut:
             target = _port(connection.target, index)
-            senders.setdefault(target, []).append(_port(connection.source, index))
+            senders.setdefault(target, []).append(_port(connection.sender, index))
     needs: dict[Port, set[Port]] = {}
     for i, part in enumerate(model.parts):
         for output, inputs in part.type.dependencies.items():

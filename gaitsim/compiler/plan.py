@@ -100,7 +100,7 @@ def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kerne
         program.updates,
         program.senders,
         tuple(program.has_base),
-        tuple(line.source for line in program.delays),
+        tuple(line.sender for line in program.delays),
         tuple(program.outputs.place(i, "stop") for i in program.stops),
         tuple(int(place) for place in program.signal_places),
         tuple(reads),
@@ -126,7 +126,7 @@ def _constant_parts(program: Program, moved: set[int]) -> set[int]:
         if call.last and call.part not in moved and not {"update", "reset"} & part.type.functions:
             slots = [program.inputs.place(call.part, name) for name in _read(part)]
             senders = [sender for slot in slots for sender in program.senders[slot]]
-            if all(line < 0 and program.part_of_output(source) in found for source, line in senders):
+            if all(line < 0 and program.part_of_output(sender) in found for sender, line in senders):
                 found.add(call.part)
     return found
 

@@ -71,7 +71,7 @@ def _layout(sizes: Sequence[dict[str, int]]) -> Layout:
 class DelayLine:
     """A delayed connection: what it reads, the number that is its delay, its value before the start."""
 
-    source: int
+    sender: int
     number: int
     initial: int | None
 
@@ -169,8 +169,8 @@ class Program:
                 move = f"begin tune at {step:g} s or above" if free else "write 0 s or a longer delay"
                 rule = f"{low:g} s is shorter than one step of {step:g} s; {move}"
                 faults.add(f"{rule}.", number.mark, number.address)
-            source = self.outputs.place(*self.port(connection.source))
-            lines.append(DelayLine(source, connection.delay, connection.initial))
+            sender = self.outputs.place(*self.port(connection.sender))
+            lines.append(DelayLine(sender, connection.delay, connection.initial))
         faults.raise_if_any()
         return tuple(lines)
 
@@ -182,7 +182,7 @@ class Program:
         for connection in self.model.connections:
             target = self.inputs.place(*self.port(connection.target))
             delayed = self._delayed(connection)
-            found[target].append((self.outputs.place(*self.port(connection.source)), line if delayed else -1))
+            found[target].append((self.outputs.place(*self.port(connection.sender)), line if delayed else -1))
             line += delayed
         return tuple(tuple(each) for each in found)
 

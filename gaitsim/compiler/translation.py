@@ -178,8 +178,8 @@ class Translation:
     def _arriving(self, f: Writer, slot: int) -> Any:
         """The sum of what arrives at one input."""
         value = f.load(f.base, slot) if self.plan.constant[slot] else DOUBLE(0)
-        for source, line in self.plan.senders[slot]:
-            sent = f.load(f.outputs, source) if line < 0 else self._delayed(f, line)
+        for sender, line in self.plan.senders[slot]:
+            sent = f.load(f.outputs, sender) if line < 0 else self._delayed(f, line)
             value = f.builder.fadd(value, sent)
         return value
 
@@ -257,9 +257,9 @@ class Translation:
     def _fill(self, f: Writer) -> None:
         """Before the start, a delayed signal was what it is at the start."""
         b = f.builder
-        for line, source in enumerate(self.plan.lines):
+        for line, sender in enumerate(self.plan.lines):
             given = f.load(f.before, line)
-            sent = b.select(b.fcmp_unordered("uno", given, given), f.load(f.outputs, source), given)
+            sent = b.select(b.fcmp_unordered("uno", given, given), f.load(f.outputs, sender), given)
             f.store(sent, f.past, line)
         numbers = INTEGER(len(self.plan.lines))
         with f.times(b.mul(b.add(f.mask, INTEGER(1)), numbers), first=len(self.plan.lines)) as place:
@@ -294,8 +294,8 @@ class Translation:
         self._look(f, lambda good, status: self._end_unless(f, good, status))
         self._write(f)
         row = self._row(f, f.step)
-        for line, source in enumerate(plan.lines):
-            f.store(f.load(f.outputs, source), row, line)
+        for line, sender in enumerate(plan.lines):
+            f.store(f.load(f.outputs, sender), row, line)
         self.records.record(f)
         for i, place in enumerate(plan.stops):
             running = b.fcmp_ordered("<=", f.load(f.outputs, place), DOUBLE(0.5))

@@ -102,16 +102,16 @@ def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
 def _texts(file: Primitive | Shared) -> tuple[str, str, str, str]:
     """A file as text: its reference or name, its path, how errors name it, its content."""
     name = file.reference if isinstance(file, Primitive) else file.name
-    return name, str(file.path), file.shown, file.source
+    return name, str(file.path), file.shown, file.text
 
 
 def _compile(files: Sequence[tuple[Sequence[str], Sequence[Sequence[str]]]]) -> None:
     """Compile each component that no other process has compiled by then."""
     from gaitsim.components.load import load_primitive
 
-    for (reference, path, shown, source), others in files:
+    for (reference, path, shown, text), others in files:
         shared = [Shared(name, Path(place), seen, text) for name, place, seen, text in others]
-        kernel_of(load_primitive(reference, Path(path), shown, source, shared)).bitcode()
+        kernel_of(load_primitive(reference, Path(path), shown, text, shared)).bitcode()
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ from gaitsim.component import Parameter
 from gaitsim.components.load import as_lines, digest_of
 from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Faults, Mark
-from gaitsim.text.document import Mapping, Node, Scalar, Sequence, parse
+from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode, parse
 from gaitsim.text.quantity import number_with_unit, said, unknown_unit
 from gaitsim.text.spelling import respelled
 from gaitsim.units import UnknownUnit, parse_unit
@@ -32,7 +32,7 @@ class Composite:
 
     reference: str
     path: Path
-    source: str
+    text: str
     digest: str
     doc: str
     parameters: dict[str, Parameter]
@@ -41,8 +41,8 @@ class Composite:
     frames: dict[str, str]
     inputs: dict[str, tuple[str, ...]]
     outputs: dict[str, str]
-    parts: Mapping
-    document: Mapping
+    parts: MappingNode
+    document: MappingNode
 
     @property
     def kind(self) -> str:
@@ -56,7 +56,7 @@ class Composite:
     def mark(self, section: str, name: str) -> Mark:
         """Where a name of a section is written."""
         inside = self.document.entries.get(section)
-        return inside.keys.get(name, inside.mark) if isinstance(inside, Mapping) else self.document.mark
+        return inside.keys.get(name, inside.mark) if isinstance(inside, MappingNode) else self.document.mark
 
 
 ComponentFile = Primitive | Composite
@@ -74,13 +74,13 @@ def load_composite(reference: str, path: Path, shown: str, text: str) -> Composi
         faults.add("a composite has no parts; write parts: and below it at least one.", document.mark)
     parameters, defaults = declared_parameters(sections["parameters"], faults)
     about = document.entries.get("about")
-    source = as_lines(text.removeprefix("\ufeff"))
+    text = as_lines(text.removeprefix("\ufeff"))
     composite = Composite(
         reference,
         path,
-        source,
-        digest_of(source),
-        str(about.value) if isinstance(about, Scalar) else "",
+        text,
+        digest_of(text),
+        str(about.value) if isinstance(about, ScalarNode) else "",
         parameters,
         defaults,
         {name: _text(node, faults) for name, node in sections["attachments"].entries.items()},
@@ -94,14 +94,14 @@ def load_composite(reference: str, path: Path, shown: str, text: str) -> Composi
     return composite
 
 
-def declared_parameters(section: Mapping, faults: Faults) -> tuple[dict[str, Parameter], dict[str, Node]]:
+def declared_parameters(section: MappingNode, faults: Faults) -> tuple[dict[str, Parameter], dict[str, Node]]:
     """The parameters of a mask and the nodes of their defaults."""
     parameters: dict[str, Parameter] = {}
     defaults: dict[str, Node] = {}
     for name, node in section.entries.items():
-        if not isinstance(node, Mapping):
+        if not isinstance(node, MappingNode):
             faults.add("this needs a unit and a default; write such as {unit: kg, default: 80 kg}.", node.mark, name)
-            parameters[name], defaults[name] = Parameter("*", ""), Scalar(0, node.mark)
+            parameters[name], defaults[name] = Parameter("*", ""), ScalarNode(0, node.mark)
             continue
         node = respelled(node, _FIELDS, "a parameter has no key", faults, name)
         parameters[name] = Parameter(
@@ -115,7 +115,7 @@ def declared_parameters(section: Mapping, faults: Faults) -> tuple[dict[str, Par
     return parameters, defaults
 
 
-def _unit(node: Mapping, name: str, faults: Faults) -> str:
+def _unit(node: MappingNode, name: str, faults: Faults) -> str:
     """The unit of a parameter; left open after a fault, so that it is the only one."""
     unit = _word(node, "unit") or "1"
     try:
@@ -125,12 +125,12 @@ def _unit(node: Mapping, name: str, faults: Faults) -> str:
         return "*"
 
 
-def _bounds(node: Mapping, name: str, faults: Faults) -> tuple[float, float] | None:
+def _bounds(node: MappingNode, name: str, faults: Faults) -> tuple[float, float] | None:
     """Bounds in the parameter's unit."""
     bounds = node.entries.get("bounds")
     if bounds is None:
         return None
-    if not isinstance(bounds, Sequence) or len(bounds.items) != 2:
+    if not isinstance(bounds, SequenceNode) or len(bounds.items) != 2:
         faults.add("bounds are two values; write such as bounds: [0 kg, 200 kg].", bounds.mark, name)
         return None
     unit = _unit(node, name, faults)
@@ -144,28 +144,28 @@ def _bounds(node: Mapping, name: str, faults: Faults) -> tuple[float, float] | N
     return low, high
 
 
-def _word(node: Mapping, key: str) -> str:
+def _word(node: MappingNode, key: str) -> str:
     value = node.entries.get(key)
-    return str(value.value) if isinstance(value, Scalar) and value.value is not None else ""
+    return str(value.value) if isinstance(value, ScalarNode) and value.value is not None else ""
 
 
-def _mapping(document: Mapping, name: str, faults: Faults) -> Mapping:
+def _mapping(document: MappingNode, name: str, faults: Faults) -> MappingNode:
     node = document.entries.get(name)
-    if node is None or (isinstance(node, Scalar) and node.value is None):
-        return Mapping({}, {}, document.mark)
-    if not isinstance(node, Mapping):
+    if node is None or (isinstance(node, ScalarNode) and node.value is None):
+        return MappingNode({}, {}, document.mark)
+    if not isinstance(node, MappingNode):
         faults.add(f"{said(node)} is no mapping of names; write such as {name}: {_SAMPLES[name]}.", node.mark, name)
-        return Mapping({}, {}, document.mark)
+        return MappingNode({}, {}, document.mark)
     return node
 
 
 def _text(node: Node, faults: Faults) -> str:
-    if isinstance(node, Scalar) and isinstance(node.value, str):
+    if isinstance(node, ScalarNode) and isinstance(node.value, str):
         return node.value
     faults.add(f"{said(node)} is no name; write such as thigh.proximal.", node.mark)
     return ""
 
 
 def _targets(node: Node, faults: Faults) -> tuple[str, ...]:
-    items = node.items if isinstance(node, Sequence) else (node,)
+    items = node.items if isinstance(node, SequenceNode) else (node,)
     return tuple(_text(item, faults) for item in items)

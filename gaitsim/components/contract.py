@@ -5,7 +5,7 @@ from __future__ import annotations
 from gaitsim.components.checks.check import declaration_marks, parse
 from gaitsim.components.composite import ComponentFile, Composite
 from gaitsim.errors import Fault, Faults, Mark
-from gaitsim.text.document import Mapping, Node, plain
+from gaitsim.text.document import MappingNode, Node, plain
 from gaitsim.text.document import parse as parse_document
 from gaitsim.text.quantity import said, unknown_unit
 from gaitsim.text.spelling import respelled
@@ -44,8 +44,8 @@ def read_contract(text: str, named: str) -> dict[str, dict[str, str]]:
     document = respelled(parse_document(text, named), ("about", *_SECTIONS), "a kind has no section", faults)
     found: dict[str, dict[str, str]] = {}
     for section in _SECTIONS:
-        wanted = document.entries.get(section, Mapping({}, {}, document.mark))
-        if not isinstance(wanted, Mapping):
+        wanted = document.entries.get(section, MappingNode({}, {}, document.mark))
+        if not isinstance(wanted, MappingNode):
             faults.add(f"{said(wanted)} is no mapping of names; write such as {section}: {{force: N}}.", wanted.mark)
             continue
         found[section] = {}
@@ -63,8 +63,8 @@ def _mark(component: ComponentFile, section: str, name: str, file: str) -> Mark:
     """Where a component declares a name, or else itself."""
     if isinstance(component, Composite):
         return component.mark(section, name)
-    lines = component.source.splitlines()
-    return declaration_marks(parse(component.source, file), file, lines)[name]
+    lines = component.text.splitlines()
+    return declaration_marks(parse(component.text, file), file, lines)[name]
 
 
 def _offered(component: ComponentFile, section: str) -> dict[str, str]:

@@ -137,17 +137,16 @@ class Library:
         path = next((f / kind / KIND for f in self.folders if self._has(f / kind / KIND)), None)
         return (path, self._text(path, "contract")) if path else None
 
-    def shared(self, kind: str, source: str) -> list[Shared]:
+    def shared(self, kind: str, text: str) -> list[Shared]:
         """The files of a kind that the text of a component imports from, as far as there are any.
 
         Errors: InvalidSpec.
         """
         found = []
-        for name in imported_names(source):
+        for name in imported_names(text):
             files = [f / kind / f"{name}.py" for f in self.folders if self._has(f / kind / f"{name}.py")]
             if files:
-                text = as_lines(self._text(files[0], "file"))
-                found.append(Shared(name, files[0], shown(files[0]), text))
+                found.append(Shared(name, files[0], shown(files[0]), as_lines(self._text(files[0], "file"))))
         return found
 
     def _load(self, reference: str) -> ComponentFile:
@@ -165,7 +164,7 @@ class Library:
         if faults:
             raise InvalidSpec(faults)
         for hidden in files[1:]:
-            if as_lines(self._text(hidden, "component")) != loaded.source:
+            if as_lines(self._text(hidden, "component")) != loaded.text:
                 self.notices.append(f"{shown(path)} hides {shown(hidden)}")
         return loaded
 

@@ -46,42 +46,42 @@ def load_primitive(reference: str, path: Path, shown: str, text: str, shared: Se
     Raises:
         InvalidComponent: The file has faults; the error holds all of them.
     """
-    source = as_lines(text)
-    everything = whole(source, shared)
+    text = as_lines(text)
+    everything = whole(text, shared)
     dependencies = sound_dependencies(everything)
     if dependencies is None:
-        tree = parse(source, shown)
-        others = _sound_trees(source, tree, shown, shared)
-        cls = component_class(execute(source, shown, ieee_math(), shared))
-        if faults := _faults(source, tree, cls, shown, shared, others):
+        tree = parse(text, shown)
+        others = _sound_trees(text, tree, shown, shared)
+        cls = component_class(execute(text, shown, ieee_math(), shared))
+        if faults := _faults(text, tree, cls, shown, shared, others):
             raise InvalidComponent(faults)
         dependencies = output_dependencies(tree, cls.declarations, others)
         remember(everything, dependencies)
     else:
-        cls = component_class(execute(source, shown, ieee_math(), shared))
+        cls = component_class(execute(text, shown, ieee_math(), shared))
     functions = frozenset(name for name in FUNCTIONS if name in vars(cls))
     digest = digest_of(everything)
-    return Primitive(reference, path, shown, source, digest, cls, dependencies, functions, tuple(shared))
+    return Primitive(reference, path, shown, text, digest, cls, dependencies, functions, tuple(shared))
 
 
-def _sound_trees(source: str, tree: ast.Module, shown: str, shared: Sequence[Shared]) -> list[ast.Module]:
+def _sound_trees(text: str, tree: ast.Module, shown: str, shared: Sequence[Shared]) -> list[ast.Module]:
     """The syntax trees of the shared files, which define all that the component imports.
 
     Errors: InvalidComponent.
     """
-    others = [parse_shared(file.source, file.shown) for file in shared]
-    lines = source.splitlines()
+    others = [parse_shared(file.text, file.shown) for file in shared]
+    lines = text.splitlines()
     wrong = import_faults(tree, shared, others)
     faults = [Fault(message, place(shown, lines, node.lineno, node.col_offset)) for message, node in wrong]
     for file, other in zip(shared, others, strict=True):
-        faults += check_names(other, {}, file.shown, file.source.splitlines())
+        faults += check_names(other, {}, file.shown, file.text.splitlines())
     if faults:
         raise InvalidComponent(faults)
     return others
 
 
 def _faults(
-    source: str,
+    text: str,
     tree: ast.Module,
     cls: type[Component],
     shown: str,
@@ -91,23 +91,23 @@ def _faults(
     """What is wrong in a file that Python could run: the first kind of mistakes that there is."""
     from gaitsim.components.checks.audit import audit
 
-    lines = source.splitlines()
+    lines = text.splitlines()
     return (
         check_names(tree, cls.declarations, shown, lines, others)
         or _part_faults(cls, declaration_marks(tree, shown, lines))
-        or audit(source, shown, shared).faults
+        or audit(text, shown, shared).faults
     )
 
 
-def execute(source: str, file: str, mathematics: Any, shared: Sequence[Shared] = ()) -> dict[str, Any]:
+def execute(text: str, file: str, mathematics: Any, shared: Sequence[Shared] = ()) -> dict[str, Any]:
     """The namespace of a component file and of those that it imports from, with `math` replaced."""
-    spaces = {other.name: execute(other.source, other.shown, mathematics) for other in shared}
+    spaces = {other.name: execute(other.text, other.shown, mathematics) for other in shared}
     namespace: dict[str, Any] = {"__name__": "component", "__builtins__": builtins_with(spaces)}
     try:
-        exec(compile(source, file, "exec"), namespace)
+        exec(compile(text, file, "exec"), namespace)
     except Exception as error:
         raise InvalidComponent(
-            Fault(f"Python raises {type(error).__name__}: {error}; mend this line.", _mark_of(error, source, file))
+            Fault(f"Python raises {type(error).__name__}: {error}; mend this line.", _mark_of(error, text, file))
         ) from error
     for name, value in list(namespace.items()):
         if value is math:
@@ -138,17 +138,17 @@ def raised(component: Primitive, function: str, address: str, error: Exception) 
     hint = "" if said.endswith("?") else "; mend this line."
     if isinstance(error, AttributeError) and error.name and error.obj is not None:
         hint = f". {did_you_mean(error.name, [name for name in dir(error.obj) if not name.startswith('_')])}"
-    return Fault(f"{function} raised {said}{hint}", _mark_of(error, component.source, component.shown), address)
+    return Fault(f"{function} raised {said}{hint}", _mark_of(error, component.text, component.shown), address)
 
 
-def _mark_of(error: Exception, source: str, file: str) -> Mark:
+def _mark_of(error: Exception, text: str, file: str) -> Mark:
     trace = error.__traceback__
     line = 0
     while trace is not None:
         if trace.tb_frame.f_code.co_filename == file:
             line = trace.tb_lineno
         trace = trace.tb_next
-    lines = source.splitlines()
+    lines = text.splitlines()
     text = lines[line - 1] if 0 < line <= len(lines) else ""
     return Mark(file, line, len(text) - len(text.lstrip()) + 1 if text else 0, text)
 

@@ -27,7 +27,7 @@ class Primitive:
     reference: str
     path: Path
     shown: str
-    source: str
+    text: str
     digest: str
     cls: type[c.Component]
     dependencies: Mapping[str, frozenset[str]]
@@ -102,7 +102,7 @@ class Primitive:
     @property
     def code(self) -> str:
         """All text that the component is made of: that of shared files, then its own."""
-        return whole(self.source, self.shared)
+        return whole(self.text, self.shared)
 
     @property
     def kind(self) -> str:

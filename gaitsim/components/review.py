@@ -15,7 +15,7 @@ from gaitsim.components.ieee import ieee_math
 from gaitsim.components.load import component_class, execute
 from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Fault, GaitsimError, Mark
-from gaitsim.text.document import Mapping as Node
+from gaitsim.text.document import MappingNode
 
 _DOCUMENTED = Parameter | Input | Output | State | Metric | Attachment | Frame | Points | Option
 
@@ -41,20 +41,20 @@ def _of_broken(reference: str, library: Library) -> Iterator[Fault]:
         return
     file = shown(path)
     try:
-        source = path.read_text(encoding="utf-8")
-        tree = parse(source, file)
-        cls = component_class(execute(source, file, ieee_math(), library.shared(path.parent.name, source)))
+        text = path.read_text(encoding="utf-8")
+        tree = parse(text, file)
+        cls = component_class(execute(text, file, ieee_math(), library.shared(path.parent.name, text)))
     except (OSError, UnicodeError, GaitsimError):
         return
-    marks = declaration_marks(tree, file, source.splitlines())
+    marks = declaration_marks(tree, file, text.splitlines())
     yield from _policy(cls.declarations, cls.__doc__ or "", marks, set(read_bibliography(library.folders)))
 
 
 def _of_primitive(found: Primitive, keys: set[str], library: Library) -> Iterator[Fault]:
-    lines = found.source.splitlines()
-    marks = declaration_marks(parse(found.source, found.shown), found.shown, lines)
+    lines = found.text.splitlines()
+    marks = declaration_marks(parse(found.text, found.shown), found.shown, lines)
     yield from _policy(found.cls.declarations, found.doc, marks, keys)
-    for line in audit(found.source, found.shown, found.shared).unreached:
+    for line in audit(found.text, found.shown, found.shared).unreached:
         place = Mark(found.shown, line, 1, lines[line - 1])
         yield Fault("no path leads here, so its units were not checked; remove it, or a condition before it.", place)
     if library.contract(found.kind) is None:
@@ -103,7 +103,7 @@ def _of_composite(found: Composite, keys: set[str]) -> Iterator[Fault]:
 def _inner(found: Composite, library: Library) -> Iterator[Fault]:
     """Inner parts whose component is unknown or broken."""
     for name, node in found.parts.entries.items():
-        entry = node.entries.get("use") if isinstance(node, Node) else None
+        entry = node.entries.get("use") if isinstance(node, MappingNode) else None
         reference = str(getattr(entry, "value", ""))
         if not reference:
             yield Fault("an inner part needs use: kind/name.", found.parts.keys[name], name)

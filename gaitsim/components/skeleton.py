@@ -65,8 +65,8 @@ def new_component(kind: str, name: str, library: Library, like: str | None = Non
         if other.kind != kind:
             raise Usage(f"--like {like}: this is no {kind}; choose one of {', '.join(library.references(kind))}.")
         if isinstance(other, Composite):
-            return f"{name}.yaml", other.source
-        return f"{name}.py", _CLASS.sub(f"class {class_name}(", other.source, count=1)
+            return f"{name}.yaml", other.text
+        return f"{name}.py", _CLASS.sub(f"class {class_name}(", other.text, count=1)
     skeleton = next((f / kind / SKELETON for f in library.folders if (f / kind / SKELETON).is_file()), None)
     if skeleton is not None:
         return f"{name}.py", _CLASS.sub(f"class {class_name}(", skeleton.read_text(encoding="utf-8"), count=1)

@@ -35,7 +35,7 @@ class Table:
     """Columns of numbers in SI over those of the first, each with the unit that its file has."""
 
     path: Path
-    source: str
+    text: str
     about: str
     over: Floats
     columns: dict[str, Floats]

@@ -16,6 +16,7 @@ import numpy as np
 from gaitsim.optimization.evaluation import Evaluation
 from gaitsim.optimization.problem import Problem
 
+# "spread" is the standard deviation of the scores; the column keeps the name that it has in files of older searches.
 _COLUMNS = ("generation", "evaluations", "best", "generation_best", "median", "spread", "failed")
 
 
@@ -28,14 +29,14 @@ class Generation:
     best: float
     generation_best: float
     median: float
-    spread: float
+    deviation: float
     failed: int
 
     def row(self) -> list[str]:
         return [
             str(self.generation),
             str(self.evaluations),
-            *(_text(v) for v in (self.best, self.generation_best, self.median, self.spread)),
+            *(_text(v) for v in (self.best, self.generation_best, self.median, self.deviation)),
             str(self.failed),
         ]
 
@@ -46,8 +47,8 @@ def generation_of(number: int, so_far: int, best: float, evaluations: Sequence[E
     failed = len(evaluations) - len(scores)
     if not scores:
         return Generation(number, so_far, best, math.inf, math.inf, math.nan, failed)
-    spread = statistics.pstdev(scores)
-    return Generation(number, so_far, best, min(scores), statistics.median(scores), spread, failed)
+    deviation = statistics.pstdev(scores)
+    return Generation(number, so_far, best, min(scores), statistics.median(scores), deviation, failed)
 
 
 class GenerationsFile:

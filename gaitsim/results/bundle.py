@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import re
-from collections.abc import Iterable, Mapping as Map
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -13,7 +13,7 @@ from gaitsim.errors import Fault, GaitsimError, Mark
 from gaitsim.model import Model
 from gaitsim.components.find import Library, shown
 from gaitsim.components.load import as_lines
-from gaitsim.text.document import Mapping, dump, parse, plain, text_of
+from gaitsim.text.document import MappingNode, dump, parse, plain, text_of
 from gaitsim.components.primitive import Primitive
 from gaitsim.spec.inheritance import without_marked
 from gaitsim.spec.resolve import resolve
@@ -57,7 +57,7 @@ class Bundle:
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text, encoding="utf-8")
 
-    def document(self) -> Mapping:
+    def document(self) -> MappingNode:
         """The spec. Errors: InvalidSpec."""
         return parse(self.files[SPEC], str(self.folder / SPEC))
 
@@ -84,7 +84,7 @@ class Bundle:
 
 
 def bundled(
-    document: Mapping, name: str, library: Library, starts: Map[str, float], models: Iterable[Model]
+    document: MappingNode, name: str, library: Library, starts: Mapping[str, float], models: Iterable[Model]
 ) -> Bundle:
     """The bundle of a spec and its resolved models; `starts` are tuned values by address.
 
@@ -95,15 +95,15 @@ def bundled(
     if starts:
         files[START] = json.dumps(dict(starts), indent=2) + "\n"
     for reference, component in library.used().items():
-        files[f"{COMPONENTS}/{reference}{component.path.suffix}"] = component.source
+        files[f"{COMPONENTS}/{reference}{component.path.suffix}"] = component.text
         if isinstance(component, Primitive):
             for file in component.shared:
-                files[f"{COMPONENTS}/{component.kind}/{file.name}.py"] = file.source
+                files[f"{COMPONENTS}/{component.kind}/{file.name}.py"] = file.text
         contract = library.contract(component.kind)
         if contract:
             files[f"{COMPONENTS}/{component.kind}/kind.yaml"] = contract[1]
     for reference, table in library.used_tables().items():
-        files[f"{COMPONENTS}/{reference}{table.path.suffix}"] = table.source
+        files[f"{COMPONENTS}/{reference}{table.path.suffix}"] = table.text
     return Bundle(name, files)
 
 

@@ -120,5 +120,5 @@ def _place(number: Number, part: Part | None) -> Mark | None:
     if number.mark is not None or part is None:
         return number.mark
     component = part.type
-    marks = declaration_marks(parse(component.source, component.shown), component.shown, component.source.splitlines())
+    marks = declaration_marks(parse(component.text, component.shown), component.shown, component.text.splitlines())
     return marks.get(number.address.rpartition(".")[2])

@@ -75,7 +75,7 @@ def connection_rows(model: Model) -> list[dict[str, Any]]:
     values = model.values()
     rows = []
     for connection in model.connections:
-        row: dict[str, Any] = {"from": connection.source, "to": connection.target}
+        row: dict[str, Any] = {"from": connection.sender, "to": connection.target}
         if connection.delay is not None:
             row["delay"] = values[connection.delay]
         row["by"] = connection.made_by or str(connection.mark)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping as Map
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, Literal
 
@@ -55,7 +55,7 @@ def new_manifest(kind: str, bundle: Bundle, mode: str, place: Path, **more: Any)
     }
 
 
-def format_of(manifest: Map[str, Any]) -> int:
+def format_of(manifest: Mapping[str, Any]) -> int:
     """The format of a result's files; those that do not say it have the first."""
     return int(manifest.get("format", 1))
 
@@ -127,7 +127,7 @@ def read_result(folder: Path) -> tuple[dict[str, Any], Bundle]:
     return manifest, bundle
 
 
-def _edited(before: Map[str, str], bundle: Bundle) -> str:
+def _edited(before: Mapping[str, str], bundle: Bundle) -> str:
     """What happened to the files of a result. before: their digests; older results have none."""
     now = bundle.digests
     same = [path for path in before if now.get(path) == before[path]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Mapping as Map
+from collections.abc import Mapping
 from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
@@ -46,7 +46,7 @@ class Record:
         mode: str,
         place: Path,
         draws: Draws | None = None,
-        more: Map[str, Any] | None = None,
+        more: Mapping[str, Any] | None = None,
     ) -> None:
         self.folder: Path | None = None
         self._root, self._bundle, self._model, self._xml, self._draws = root, bundle, model, xml, draws
@@ -68,7 +68,7 @@ class Record:
         except OSError as error:
             raise self._cannot(error) from error
 
-    def add(self, settings: Map[str, str], outcome: Outcome) -> None:
+    def add(self, settings: Mapping[str, str], outcome: Outcome) -> None:
         """Keep one run more. Errors: CannotSave, with the runs before it as they were."""
         row = row_data(settings, outcome)
         if self._draws:
@@ -121,11 +121,11 @@ class Record:
         return [*tally, *(_told(row, self._model.metrics) for row in self._rows[:_TOLD])]
 
 
-def _line(row: Map[str, Any]) -> str:
+def _line(row: Mapping[str, Any]) -> str:
     return json.dumps(row, allow_nan=False) + "\n"
 
 
-def _told(row: Map[str, Any], units: Map[str, str]) -> str:
+def _told(row: Mapping[str, Any], units: Mapping[str, str]) -> str:
     said = row_words(row)
     found = {name: math.nan if v is None else v for name, v in row["metrics"].items()}
     numbers = ", ".join(f"{name} {with_unit(f'{v:.5g}', units.get(name, '1'))}" for name, v in found.items())

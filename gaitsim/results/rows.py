@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-from collections.abc import Mapping as Map
+from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -33,7 +33,7 @@ def read_rows(folder: Path, begun: bool = False) -> list[dict[str, Any]]:
     return rows
 
 
-def outcome_of(row: Map[str, Any], step: float) -> Outcome:
+def outcome_of(row: Mapping[str, Any], step: float) -> Outcome:
     """How a run ended that was read; step: of its model, in s."""
     metrics = {name: math.nan if value is None else float(value) for name, value in row["metrics"].items()}
     return Outcome(row["status"], row["reason"], row["steps"], step, metrics, row["score"], 0.0)
@@ -59,12 +59,12 @@ def pick_row(folder: Path, which: str) -> int:
     return int(which) - 1
 
 
-def row_words(row: Map[str, Any]) -> str:
+def row_words(row: Mapping[str, Any]) -> str:
     """What was set in a run: gain = 2, ...; or which draw it is; empty if neither."""
     said = [f"{address} = {value}" for address, value in row["settings"].items()]
     return ", ".join([*said, *([f"draw {row['draw']}"] if "draw" in row else [])])
 
 
-def row_starts(row: Map[str, Any]) -> dict[str, float]:
+def row_starts(row: Mapping[str, Any]) -> dict[str, float]:
     """The tuned values of a draw, in SI, by address; none of another run."""
     return {str(address): float(value) for address, value in row.get("values", {}).items()}

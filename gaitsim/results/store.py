@@ -6,7 +6,7 @@ import json
 import math
 import secrets
 import shutil
-from collections.abc import Mapping as Map
+from collections.abc import Mapping
 from collections.abc import Sequence
 from dataclasses import asdict
 from datetime import date
@@ -35,7 +35,7 @@ class CannotSave(GaitsimError):
 
 
 def create_result(
-    root: Path, bundle: Bundle, model: Model, xml: str, manifest: dict[str, Any], more: Map[str, str], move: str
+    root: Path, bundle: Bundle, model: Model, xml: str, manifest: dict[str, Any], more: Mapping[str, str], move: str
 ) -> Path:
     """A new result folder with spec, model, MJCF, components, manifest and more files; its path.
 
@@ -72,7 +72,7 @@ def finish(folder: Path, manifest: dict[str, Any], headline: Sequence[str]) -> N
     write_manifest(folder, manifest)
 
 
-def row_data(settings: Map[str, str], outcome: Outcome) -> dict[str, Any]:
+def row_data(settings: Mapping[str, str], outcome: Outcome) -> dict[str, Any]:
     """One run as data; numbers that are not finite are null."""
     return {
         "settings": dict(settings),

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from collections.abc import Mapping as Map
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 from gaitsim.errors import Fault, InvalidSpec, Mark
 from gaitsim.model import Free, Model
 from gaitsim.optimization.problem import Problem, Variable
-from gaitsim.text.document import Mapping, Node, Scalar, dump, read
+from gaitsim.text.document import MappingNode, Node, ScalarNode, dump, read
 from gaitsim.text.quantity import mismatch
 from gaitsim.units import Quantity, Unit, UnknownUnit, parse_quantity
 from gaitsim.whole import write_whole
@@ -33,7 +33,7 @@ def tuned_path(spec: Path) -> Path:
     return spec.with_name(f"{spec.stem}.tuned.yaml")
 
 
-def write_tuned(spec: Path, result: str, score: float, values: Map[str, float], units: Map[str, Unit]) -> Path:
+def write_tuned(spec: Path, result: str, score: float, values: Mapping[str, float], units: Mapping[str, Unit]) -> Path:
     """Write the tuned values of a spec, as text that reads back bit for bit; the path.
 
     values: in SI. units: in which they are written. Errors: OSError.
@@ -43,7 +43,7 @@ def write_tuned(spec: Path, result: str, score: float, values: Map[str, float], 
     return path
 
 
-def tuned_text(result: str, score: float | None, values: Map[str, float], units: Map[str, Unit]) -> str:
+def tuned_text(result: str, score: float | None, values: Mapping[str, float], units: Mapping[str, Unit]) -> str:
     """A file of tuned values; score: None where it is not known. Else as `write_tuned`."""
     said = {a: v if units[a].text == "1" else units[a].exactly(v) for a, v in values.items()}
     known = {} if score is None else {"score": score}
@@ -57,10 +57,10 @@ def read_tuned(path: Path, free: Iterable[Free]) -> TunedValues:
     """
     document = read(path)
     values, result = document.entries.get("values"), document.entries.get("result")
-    if not isinstance(values, Mapping) or not isinstance(result, Scalar):
+    if not isinstance(values, MappingNode) or not isinstance(result, ScalarNode):
         raise InvalidSpec(Fault("this holds no tuned values; write it anew with optimize --adopt.", Mark(str(path))))
     stated = document.entries.get("format")
-    if stated is not None and not (isinstance(stated, Scalar) and stated.value == _FORMAT):
+    if stated is not None and not (isinstance(stated, ScalarNode) and stated.value == _FORMAT):
         rule = f"gaitsim reads tuned values of format {_FORMAT}, and this is another"
         raise InvalidSpec(Fault(f"{rule}; {_ANEW}", stated.mark, "format"))
     units = {each.address: each.unit for each in free}
@@ -76,7 +76,7 @@ def read_tuned(path: Path, free: Iterable[Free]) -> TunedValues:
 
 def _quantity(node: Node, in_si: bool) -> Quantity:
     """A tuned value. in_si: its number is in SI already. Errors: InvalidSpec."""
-    if isinstance(node, Scalar) and isinstance(node.value, str | int | float) and not isinstance(node.value, bool):
+    if isinstance(node, ScalarNode) and isinstance(node.value, str | int | float) and not isinstance(node.value, bool):
         text = str(node.value).partition(" ")[0] if in_si else node.value
         try:
             quantity = parse_quantity(text)

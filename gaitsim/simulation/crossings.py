@@ -22,14 +22,14 @@ class Crossing:
 
     muscle: the address of the part with an activation that the path is in.
     path: the address of the whole path.
-    source: the component whose moment it is.
+    part: the path component whose moment it is.
     joint: MuJoCo's name of the hinge; `hinge` is the part, `neutral` its angle in the posture of the model file.
     share: how much of the moment turns the coordinate: 1, or -1.
     """
 
     muscle: str
     path: str
-    source: Part
+    part: Part
     hinge: Part
     joint: str
     neutral: float
@@ -69,12 +69,12 @@ class _Finder:
     def found(self) -> Iterator[Crossing]:
         """Each crossing, in the order of the model."""
         for connection in self.model.connections:
-            source, _, moment = connection.source.rpartition(".")
+            sender, _, moment = connection.sender.rpartition(".")
             target, _, port = connection.target.rpartition(".")
-            muscle = self._muscle(source) if target in self.turned else ""
+            muscle = self._muscle(sender) if target in self.turned else ""
             if muscle:
-                path = ".".join(source.split(".")[: muscle.count(".") + 2])
-                yield from self._at((muscle, path), self.parts[source], moment, self.parts[target], port)
+                path = ".".join(sender.split(".")[: muscle.count(".") + 2])
+                yield from self._at((muscle, path), self.parts[sender], moment, self.parts[target], port)
 
     def _hinges(self, ties: Sequence[tuple[int, Tie]], field: str) -> dict[str, list[tuple[str, Tie]]]:
         """Of each part: hinges of which it has such a field, and how."""
@@ -103,9 +103,9 @@ class _Finder:
             if share:
                 yield Crossing(*who, path, hinge, joint, neutral, share, moment, angles, self._trial(path))
 
-    def _fed(self, source: str, part: Part) -> list[str]:
+    def _fed(self, sender: str, part: Part) -> list[str]:
         """The inputs of a part that a signal goes to."""
-        ends = [c.target.rpartition(".") for c in self.model.connections if c.source == source]
+        ends = [c.target.rpartition(".") for c in self.model.connections if c.sender == sender]
         return [port for owner, _, port in ends if owner == part.address]
 
     def _reaching(self, part: Part, port: str, applied: str, at: Mapping[str, float]) -> float:

@@ -94,7 +94,7 @@ def _at_rest(kind: Primitive) -> Iterator[tuple[str, Curve]]:
     """Each output over each input, and over each number that MuJoCo sets."""
     if kind.metrics or "output" not in kind.functions:
         return
-    build = class_functions(ast.parse(kind.source)).get("build")
+    build = class_functions(ast.parse(kind.text)).get("build")
     mechanical = (placed(build, Output, kind.cls.declarations) if build else None) or set()
     for output in (name for name in kind.outputs if name not in mechanical):
         for name in [*sorted(kind.dependencies[output]), *sorted(mechanical)]:

@@ -55,12 +55,12 @@ def _read_slots(program: Program, part: int, stage: str, y: Floats) -> list[int]
 
 def _origin(program: Program, slots: list[int], u: Floats, y: Floats) -> int | None:
     """The part behind these inputs whose output is not finite although all that it needs is."""
-    for source, line in (sender for slot in slots for sender in program.senders[slot]):
-        if line >= 0 or np.isfinite(y[source]):
+    for sender, line in (sender for slot in slots for sender in program.senders[slot]):
+        if line >= 0 or np.isfinite(y[sender]):
             continue
-        part = program.part_of_output(source)
+        part = program.part_of_output(sender)
         kind, fields = program.model.parts[part].type, program.outputs.fields[part]
-        name = next(name for name in kind.outputs if program.outputs.offsets[part] + fields[name] == source)
+        name = next(name for name in kind.outputs if program.outputs.offsets[part] + fields[name] == sender)
         needed = [program.inputs.place(part, n) for n in kind.dependencies[name]]
         if np.all(np.isfinite(u[needed])):
             return part

@@ -82,7 +82,7 @@ def moment_arms(model: Model) -> list[MomentArm]:
         arms, lengths = crossing.arms(angles)
         if np.max(np.abs(arms)) > _NOTHING:
             now = crossing.arm(hinge.now)
-            found.append(hinge.arm(crossing.muscle, crossing.source, False, now, angles, arms, lengths))
+            found.append(hinge.arm(crossing.muscle, crossing.part, False, now, angles, arms, lengths))
     return found
 
 

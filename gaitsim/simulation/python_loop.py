@@ -121,7 +121,7 @@ class Checked:
         self.look(step)
         self.apply(step)
         past = self.tables.past
-        past[step % len(past)] = [self.tables.y[delay.source] for delay in self.program.delays]
+        past[step % len(past)] = [self.tables.y[delay.sender] for delay in self.program.delays]
 
     def look(self, step: int) -> None:
         """All outputs at the present positions and velocities of MuJoCo.
@@ -151,7 +151,7 @@ class Checked:
     def _fill_delays(self) -> None:
         """Before the start, a delayed signal was what it is at the start."""
         for k, (delay, before) in enumerate(zip(self.program.delays, self.tables.before, strict=True)):
-            self.tables.past[:, k] = self.tables.y[delay.source] if np.isnan(before) else before
+            self.tables.past[:, k] = self.tables.y[delay.sender] if np.isnan(before) else before
 
     def _outputs(self, step: int, starting: bool = False, lenient: bool = False) -> None:
         """Call every `output` in order, at the start after `start`; lenient calls may fail."""
@@ -193,8 +193,8 @@ class Checked:
         """Sum what arrives at a part's inputs."""
         for slot in self.slots[part]:
             value = self.tables.base[slot]
-            for source, line in self.program.senders[slot]:
-                value = value + (self.tables.y[source] if line < 0 else self._delayed(line, step))
+            for sender, line in self.program.senders[slot]:
+                value = value + (self.tables.y[sender] if line < 0 else self._delayed(line, step))
             self.tables.u[slot] = value
 
     def _delayed(self, line: int, step: int) -> Any:

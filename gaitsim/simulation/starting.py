@@ -25,8 +25,8 @@ def start_doubts(simulator: Simulator) -> Doubts:
     """Signals of the first instant that are outside the ranges that components declare."""
     model, signals = simulator.model, simulator.first_instant()
     for connection in model.connections:
-        if connection.source in signals:
-            signals[connection.target] = signals.get(connection.target, 0.0) + signals[connection.source]
+        if connection.sender in signals:
+            signals[connection.target] = signals.get(connection.target, 0.0) + signals[connection.sender]
     values = model.values()
     unusual, impossible = list[Fault](), list[Fault]()
     for part in model.parts:

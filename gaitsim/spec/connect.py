@@ -30,10 +30,10 @@ class Wiring:
         """Every connection, each between two primitives."""
         made: list[Connection] = []
         for wire in self.expansion.wires:
-            source = self._output(wire)
-            for target in self._inputs(wire.target, wire.mark, wire.source):
-                if source and self._units_fit(source, target, wire.mark):
-                    made.append(self._connection(source, target, wire))
+            sender = self._output(wire)
+            for target in self._inputs(wire.target, wire.mark, wire.sender):
+                if sender and self._units_fit(sender, target, wire.mark):
+                    made.append(self._connection(sender, target, wire))
         self._check_inputs(made)
         return tuple(made)
 
@@ -81,13 +81,13 @@ class Wiring:
         return name
 
     def _output(self, wire: Wire) -> str | None:
-        name = self._follow(wire.source, self.expansion.outputs)
+        name = self._follow(wire.sender, self.expansion.outputs)
         owner, _, port = name.rpartition(".")
         if owner in self.parts and port in self.parts[owner].type.outputs:
             return name
-        if not self.expansion.is_broken(wire.source):
-            hint = did_you_mean(wire.source, self.expansion.outputs)
-            self.faults.add(f"there is no output {wire.source}. {hint}", wire.mark, wire.target)
+        if not self.expansion.is_broken(wire.sender):
+            hint = did_you_mean(wire.sender, self.expansion.outputs)
+            self.faults.add(f"there is no output {wire.sender}. {hint}", wire.mark, wire.target)
         return None
 
     def _inputs(self, name: str, mark: Mark, address: str) -> list[str]:
@@ -105,11 +105,11 @@ class Wiring:
                 found += self._inputs(target, mark, address)
         return found
 
-    def _units_fit(self, source: str, target: str, mark: Mark) -> bool:
-        given, asked = self._unit(source, "outputs"), self._unit(target, "inputs")
+    def _units_fit(self, sender: str, target: str, mark: Mark) -> bool:
+        given, asked = self._unit(sender, "outputs"), self._unit(target, "inputs")
         if "*" in (given, asked) or parse_unit(given).dimension == parse_unit(asked).dimension:
             return True
-        words = f"{source} is {measured(parse_unit(given))} [{given}]"
+        words = f"{sender} is {measured(parse_unit(given))} [{given}]"
         rule = f"{target} takes {measured(parse_unit(asked))} [{asked}]; connect another output."
         self.faults.add(f"{words} but {rule}", mark, target)
         return False
@@ -122,12 +122,12 @@ class Wiring:
         unit: str = curve.unit if curve else declared.unit
         return unit
 
-    def _connection(self, source: str, target: str, wire: Wire) -> Connection:
+    def _connection(self, sender: str, target: str, wire: Wire) -> Connection:
         initial = None
         if wire.initial is not None:
-            asked = Parameter(self._unit(source, "outputs"), "the signal before the start")
+            asked = Parameter(self._unit(sender, "outputs"), "the signal before the start")
             initial = self.expansion.table.add(f"{target}.initial", f"{target}.initial", wire.initial, asked, {})
-        return Connection(source, target, wire.delay, initial, wire.made_by, wire.mark)
+        return Connection(sender, target, wire.delay, initial, wire.made_by, wire.mark)
 
     def _check_inputs(self, made: list[Connection]) -> None:
         """A single-valued input has one sender; one without default has at least one."""
@@ -154,7 +154,7 @@ class Wiring:
 
     def _written(self, connection: Connection) -> str:
         line = f" (line {connection.mark.line})" if connection.mark and connection.mark.line else ""
-        return f"{connection.source}{line}"
+        return f"{connection.sender}{line}"
 
     def _quiet_inputs(self, name: str) -> set[str]:
         targets = self.expansion.inputs.get(name, [])

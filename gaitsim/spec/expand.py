@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable
-from collections.abc import Sequence as Many
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from gaitsim.component import Input, Parameter
@@ -20,7 +19,7 @@ from gaitsim.spec.points import PointReader
 from gaitsim.spec.ports import PortReader, Wire
 from gaitsim.spec.scope import Scope, Where
 from gaitsim.spec.series import SAMPLE, read_series
-from gaitsim.text.document import Mapping, Node, Scalar, Sequence, plain
+from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode, plain
 from gaitsim.text.quantity import example
 from gaitsim.text.spelling import respelled
 
@@ -35,7 +34,7 @@ class Expansion:
 
     library: Library
     faults: Faults
-    use_for: dict[str, Mapping]
+    use_for: dict[str, MappingNode]
     table: NumberTable
     parts: list[Part] = field(default_factory=list)
     groups: list[Group] = field(default_factory=list)
@@ -58,7 +57,7 @@ class Expansion:
         """Whether a name lies in what could not be opened; that has been said already."""
         return any(name == part or name.startswith(f"{part}.") for part in self.broken)
 
-    def announce(self, section: Mapping, scope: Scope) -> None:
+    def announce(self, section: MappingNode, scope: Scope) -> None:
         """Make the names of a section known, that others may send to them before they are opened."""
         for name, node in section.entries.items():
             both = sides(node)
@@ -67,7 +66,7 @@ class Expansion:
             if both:
                 scope.sided[name] = names
 
-    def section(self, section: Mapping, scope: Scope, side: str = "", measure: bool = False) -> None:
+    def section(self, section: MappingNode, scope: Scope, side: str = "", measure: bool = False) -> None:
         """Open every entry of `parts:` or `measures:`."""
         self.announce(section, scope)
         sided = {name: sides(node, self.faults, name) for name, node in section.entries.items()}
@@ -80,13 +79,13 @@ class Expansion:
                 self.faults.add(rule, mark, where.address)
                 self.broken.add(where.address)
                 continue
-            if isinstance(node, Scalar) and node.value is None:
+            if isinstance(node, ScalarNode) and node.value is None:
                 others = [other for other in section.entries if other != name]
                 rule = f"there is nothing to remove. {did_you_mean(name, others)}"
                 self.faults.add(rule, mark, where.address)
                 self.broken.add(where.address)
                 continue
-            if not isinstance(node, Mapping):
+            if not isinstance(node, MappingNode):
                 rule = "a part is a mapping that begins with use:, such as {use: segment/rod}."
                 self.faults.add(rule, mark, where.address)
                 self.broken.add(where.address)
@@ -95,11 +94,11 @@ class Expansion:
                 over = section.entries.get(f"{name}_{s}")
                 own = replace(where, address=scope.below(f"{name}_{s}"), side=s)
                 own_node = without(node, "sides")
-                self._entry(merged(own_node, over) if isinstance(over, Mapping) else own_node, own)
+                self._entry(merged(own_node, over) if isinstance(over, MappingNode) else own_node, own)
             if not sided[name] and name not in overrides:
                 self._entry(node, where)
 
-    def lone_entry(self, name: str, node: Mapping, mark: Mark, scope: Scope) -> None:
+    def lone_entry(self, name: str, node: MappingNode, mark: Mark, scope: Scope) -> None:
         """Open one entry that its surroundings do not know by its name."""
         self._entry(node, Where(scope.below(name), _join(scope.logical, name), scope, mark))
 
@@ -107,7 +106,7 @@ class Expansion:
         """What needs every part to be known: points with a `%` of a segment's length."""
         self.points.read_all()
 
-    def _entry(self, node: Mapping, where: Where) -> None:
+    def _entry(self, node: MappingNode, where: Where) -> None:
         node = self._instead(node, where)
         found, swapped = self._component(node, where)
         if found is None:
@@ -119,16 +118,16 @@ class Expansion:
         else:
             self._primitive(found, node, where)
 
-    def _instead(self, node: Mapping, where: Where) -> Mapping:
+    def _instead(self, node: MappingNode, where: Where) -> MappingNode:
         """The entry with what `use_for` says of its kind; what a swapped-in part is made of stays as it is."""
         use = node.entries.get("use")
-        kind = str(use.value).split("/")[0] if isinstance(use, Scalar) else ""
+        kind = str(use.value).split("/")[0] if isinstance(use, ScalarNode) else ""
         instead = self.use_for.get(kind)
         if instead is None or str(plain(instead.entries["use"])) in where.scope.references:
             return node
         return merged(node, instead)
 
-    def _component(self, node: Mapping, where: Where) -> tuple[ComponentFile | None, frozenset[str]]:
+    def _component(self, node: MappingNode, where: Where) -> tuple[ComponentFile | None, frozenset[str]]:
         use = node.entries.get("use")
         if use is None:
             # An entry without `use` sets something of a part that is there: of which, if it is not?
@@ -137,7 +136,7 @@ class Expansion:
             hint = f" Did you mean {near}?" if near else ""
             self.faults.add(f"names no component; write use: kind/name.{hint}", where.mark, where.address)
             return None, frozenset()
-        if not isinstance(use, Scalar) or not isinstance(use.value, str):
+        if not isinstance(use, ScalarNode) or not isinstance(use.value, str):
             rule = "use: names a component, such as muscle/geyer2003."
             self.faults.add(rule, use.mark, where.address)
             return None, frozenset()
@@ -148,7 +147,9 @@ class Expansion:
                 self.faults.add(fault.message, fault.mark, fault.address)
             return None, node.swapped
 
-    def _known_words(self, node: Mapping, found: ComponentFile, where: Where, swapped: frozenset[str]) -> Mapping:
+    def _known_words(
+        self, node: MappingNode, found: ComponentFile, where: Where, swapped: frozenset[str]
+    ) -> MappingNode:
         """The entry without what a swapped-in part lacks; other unknown words are faults."""
         dropped = [word for word in node.entries if word in swapped and word not in (*found.words, *_STRUCTURE)]
         self.notices += [f"{where.address}: {found.reference} has no {word}; dropped" for word in dropped]
@@ -156,7 +157,7 @@ class Expansion:
         kept = without(node, *dropped)
         return respelled(kept, found.words, f"{found.reference} has no", self.faults, where.address, more=_STRUCTURE)
 
-    def _composite(self, found: Composite, node: Mapping, where: Where) -> None:
+    def _composite(self, found: Composite, node: MappingNode, where: Where) -> None:
         chain = where.scope.references
         if found.reference in chain:
             ring = " -> ".join([*chain[chain.index(found.reference) :], found.reference])
@@ -195,7 +196,7 @@ class Expansion:
         self._shown("input", inputs, self.inputs, found, address)
 
     def _shown(
-        self, what: str, pairs: Many[tuple[str, str]], known: Iterable[str], found: Composite, address: str
+        self, what: str, pairs: Sequence[tuple[str, str]], known: Iterable[str], found: Composite, address: str
     ) -> None:
         below = f"{address}."
         inside = {name.removeprefix(below) for name in known if name.startswith(below)} - {name for name, _ in pairs}
@@ -205,7 +206,7 @@ class Expansion:
                 self.faults.add(rule, found.mark(f"{what}s", name), f"{found.reference}.{name}")
                 self.broken.add(below + name)
 
-    def _primitive(self, found: Primitive, node: Mapping, where: Where) -> None:
+    def _primitive(self, found: Primitive, node: MappingNode, where: Where) -> None:
         address = where.address
         numbers = {}
         for name, declared in found.parameters.items():
@@ -243,20 +244,20 @@ class Expansion:
         self._inner_parts(found, node, where, {n: (numbers[n], d.unit) for n, d in found.parameters.items()})
 
     def _fastened(
-        self, names: Iterable[str], node: Mapping, where: Where
+        self, names: Iterable[str], node: MappingNode, where: Where
     ) -> tuple[dict[str, str], dict[str, list[Place]]]:
         """What an entry is fastened to: frames, and places beside a frame."""
         places = {}
         for name in names:
             given = node.entries.get(name)
-            text = given.value if isinstance(given, Scalar) else None
-            if isinstance(given, Mapping):
+            text = given.value if isinstance(given, ScalarNode) else None
+            if isinstance(given, MappingNode):
                 places[name] = self.points.one_later(name, given, where)
             elif isinstance(text, str) and text[:1] == "=" and text[1:] in where.scope.places:
                 places[name] = where.scope.places[text[1:]]
         return self.ports.attachments([name for name in names if name not in places], node, where), places
 
-    def _series(self, found: Primitive, node: Mapping, where: Where) -> dict[str, Recording]:
+    def _series(self, found: Primitive, node: MappingNode, where: Where) -> dict[str, Recording]:
         """The recorded curves of a part."""
         made = {}
         for name, declared in found.series.items():
@@ -271,27 +272,27 @@ class Expansion:
                 made[name] = read
         return made
 
-    def _inner_parts(self, found: Primitive, node: Mapping, where: Where, names: Names) -> None:
+    def _inner_parts(self, found: Primitive, node: MappingNode, where: Where, names: Names) -> None:
         """The parts inside a primitive, such as a muscle's path, and their wiring."""
         for name, slot in found.parts.items():
             if slot.optional and name not in node.entries:
                 continue
-            own = node.entries.get(name, Mapping({}, {}, where.mark))
+            own = node.entries.get(name, MappingNode({}, {}, where.mark))
             wrong, mark = self._slot_fault(name, slot, own, where)
             if wrong:
                 self.faults.add(wrong, mark, where.address)
                 self.broken.add(f"{where.address}.{name}")
                 self.ports.tried |= {f"{where.address}.{mine}" for mine, _ in slot.reads}
                 continue
-            assert isinstance(own, Mapping)
-            default = Scalar(slot.default, where.mark)
-            entry = merged(Mapping({"use": default}, {"use": where.mark}, own.mark), own)
+            assert isinstance(own, MappingNode)
+            default = ScalarNode(slot.default, where.mark)
+            entry = merged(MappingNode({"use": default}, {"use": where.mark}, own.mark), own)
             inner = replace(
                 where,
                 address=f"{where.address}.{name}",
                 logical=f"{where.logical}.{name}",
                 mark=node.keys.get(name, where.mark),
-                given={theirs: (Scalar(f"={text}", where.mark), names) for theirs, text in slot.gives},
+                given={theirs: (ScalarNode(f"={text}", where.mark), names) for theirs, text in slot.gives},
             )
             self._entry(entry, inner)
             for mine, theirs in slot.reads:
@@ -305,13 +306,13 @@ class Expansion:
     def _slot_fault(self, name: str, slot: InnerPart, own: Node, where: Where) -> tuple[str, Mark]:
         """What is wrong with the entry of an inner part, and where; empty if it can be opened."""
         sample = f"{name}: {{use: {next(iter(self.library.references(slot.kind)), f'{slot.kind}/...')}, ...}}"
-        if not isinstance(own, Mapping):
+        if not isinstance(own, MappingNode):
             return f"{name} is a part of its own; write {sample}.", own.mark
         use = own.entries.get("use")
         if use is None:
             missing = f"needs {name} ({slot.doc.rstrip('.')}); write {sample}."
             return ("" if slot.default else missing), where.mark
-        reference = use.value if isinstance(use, Scalar) else None
+        reference = use.value if isinstance(use, ScalarNode) else None
         kind = reference.split("/")[0] if isinstance(reference, str) else slot.kind
         if kind != slot.kind and kind in self.library.kinds():
             return f"{name} is {with_article(slot.kind)}, and {reference} is none; write {sample}.", use.mark
@@ -329,11 +330,11 @@ def _join(*words: str) -> str:
 
 def sides(node: Node, faults: Faults | None = None, name: str = "") -> tuple[str, ...]:
     """The sides that an entry is made for; none if it has no `sides:`."""
-    given = node.entries.get("sides") if isinstance(node, Mapping) else None
+    given = node.entries.get("sides") if isinstance(node, MappingNode) else None
     if given is None:
         return ()
-    items = given.items if isinstance(given, Sequence) else (given,)
-    words = tuple(str(item.value) for item in items if isinstance(item, Scalar))
+    items = given.items if isinstance(given, SequenceNode) else (given,)
+    words = tuple(str(item.value) for item in items if isinstance(item, ScalarNode))
     if not words or len(set(words)) != len(items) or not set(words) <= set(_SIDES):
         if faults is not None:
             said = f'"{", ".join(words)}" names no sides' if words else "this names no sides"

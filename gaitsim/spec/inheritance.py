@@ -9,7 +9,7 @@ from pathlib import Path
 
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, Usage, did_you_mean
 from gaitsim.text import document
-from gaitsim.text.document import Mapping, Node, Scalar, Sequence, plain
+from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode, plain
 from gaitsim.text.syntax import DEPTH_LIMIT
 
 VALUE_KEYS = frozenset({"value", "tune", "spread", "source"})
@@ -22,7 +22,7 @@ _SPEC = re.compile(
 )
 
 
-def merged(base: Mapping, over: Mapping) -> Mapping:
+def merged(base: MappingNode, over: MappingNode) -> MappingNode:
     """The base with another document laid over it; null removes a key.
 
     A null that finds nothing to remove stays: it may mean a part of a composite further down.
@@ -30,10 +30,10 @@ def merged(base: Mapping, over: Mapping) -> Mapping:
     entries, keys = dict(base.entries), dict(base.keys)
     for key, node in over.entries.items():
         _put(entries, keys, key, node, over.keys[key])
-    return Mapping(entries, keys, over.mark, _swapped(base, over))
+    return MappingNode(entries, keys, over.mark, _swapped(base, over))
 
 
-def _swapped(base: Mapping, over: Mapping) -> frozenset[str]:
+def _swapped(base: MappingNode, over: MappingNode) -> frozenset[str]:
     """The words that a part keeps from another component, and may have to drop."""
     old, new = base.entries.get("use"), over.entries.get("use")
     if old is None or new is None or plain(old) == plain(new):
@@ -41,13 +41,13 @@ def _swapped(base: Mapping, over: Mapping) -> frozenset[str]:
     return base.swapped | over.swapped | frozenset(base.entries)
 
 
-def with_parents(path: Path, shown: str, read: Callable[[Path, str], Mapping] = document.read) -> Mapping:
+def with_parents(path: Path, shown: str, read: Callable[[Path, str], MappingNode] = document.read) -> MappingNode:
     """The document in a file, laid over the parents that its `extends:` names."""
     documents = [read(path, shown)]
     names, seen = [shown], [os.path.realpath(path)]
     while "extends" in documents[-1].entries:
         parent = documents[-1].entries["extends"]
-        if not isinstance(parent, Scalar) or not isinstance(parent.value, str):
+        if not isinstance(parent, ScalarNode) or not isinstance(parent.value, str):
             rule = "extends names one parent"
             raise InvalidSpec(Fault(f"{rule}; write a file, such as extends: walk.yaml.", parent.mark, "extends"))
         path, shown = path.parent / parent.value, str(Path(shown).parent / parent.value)
@@ -68,7 +68,7 @@ def with_parents(path: Path, shown: str, read: Callable[[Path, str], Mapping] = 
 
 def parents(path: Path) -> Iterator[Path]:
     """The files that a spec extends, the nearest first; of a spec that `with_parents` has read."""
-    while isinstance(parent := document.read(path).entries.get("extends"), Scalar):
+    while isinstance(parent := document.read(path).entries.get("extends"), ScalarNode):
         path = path.parent / str(parent.value)
         yield path
 
@@ -86,7 +86,7 @@ def split_setting(text: str, origin: str = "--set") -> tuple[str, str]:
     return address, value
 
 
-def override(spec: Mapping, address: str, text: str, origin: str = "--set") -> Mapping:
+def override(spec: MappingNode, address: str, text: str, origin: str = "--set") -> MappingNode:
     """The spec with one value set, laid over what stands at its address."""
     mark = Mark(f"{origin} {address}={text}")
     words = _sectioned(spec, _words(address, mark.file))
@@ -95,12 +95,12 @@ def override(spec: Mapping, address: str, text: str, origin: str = "--set") -> M
     return _laid(spec, words, document.parse_value(text, mark.file), mark)
 
 
-def laid(spec: Mapping, address: str, value: Node, mark: Mark) -> Mapping:
+def laid(spec: MappingNode, address: str, value: Node, mark: Mark) -> MappingNode:
     """The spec with a node laid over what stands at an address, as a row of a study does it."""
     return _laid(spec, _sectioned(spec, _words(address, str(mark))), value, mark)
 
 
-def _laid(spec: Mapping, words: tuple[str, ...], value: Node, mark: Mark) -> Mapping:
+def _laid(spec: MappingNode, words: tuple[str, ...], value: Node, mark: Mark) -> MappingNode:
     faults = Faults()
     if len(words) == 2 and words[0] == "parameters":
         _check_declares(spec, words[1], value, mark, faults)
@@ -109,17 +109,17 @@ def _laid(spec: Mapping, words: tuple[str, ...], value: Node, mark: Mark) -> Map
     faults.raise_if_any()
     result = _with(spec, words, (), value, mark, faults)
     faults.raise_if_any()
-    assert isinstance(result, Mapping)  # a spec stays a mapping
+    assert isinstance(result, MappingNode)  # a spec stays a mapping
     return result
 
 
-def _check_declares(spec: Mapping, name: str, value: Node, mark: Mark, faults: Faults) -> None:
+def _check_declares(spec: MappingNode, name: str, value: Node, mark: Mark, faults: Faults) -> None:
     """What stands at `parameters.NAME` declares a parameter; a value alone belongs to another address."""
-    removed = isinstance(value, Scalar) and value.value is None
-    if removed or (isinstance(value, Mapping) and not _is_value(value)):
+    removed = isinstance(value, ScalarNode) and value.value is None
+    if removed or (isinstance(value, MappingNode) and not _is_value(value)):
         return
     section = spec.entries.get("parameters")
-    known = section.entries if isinstance(section, Mapping) else {}
+    known = section.entries if isinstance(section, MappingNode) else {}
     places = [place for word in _SEARCHED for place in _addresses(spec.entries.get(word), name)]
     if name in known:
         rule = f"a parameter of the spec goes by its name alone; write {name} instead of parameters.{name}"
@@ -132,18 +132,18 @@ def _check_declares(spec: Mapping, name: str, value: Node, mark: Mark, faults: F
     faults.add(f"{rule}.", mark, f"parameters.{name}")
 
 
-def _check_is_no_part(spec: Mapping, words: tuple[str, ...], mark: Mark, faults: Faults) -> None:
+def _check_is_no_part(spec: MappingNode, words: tuple[str, ...], mark: Mark, faults: Faults) -> None:
     """What stands below `parameters.NAME` belongs to a parameter of the spec, not to a part of that name."""
     parts = spec.entries.get("parts")
-    if isinstance(parts, Mapping) and words[1] in parts.entries:
+    if isinstance(parts, MappingNode) and words[1] in parts.entries:
         wrong, right = ".".join(words), ".".join(words[1:])
         faults.add(f"a value of a part goes by the part's name; write {right} instead of {wrong}.", mark, wrong)
 
 
 def _addresses(node: Node | None, name: str) -> Iterator[str]:
     """Where below a section of parts a key of this name stands."""
-    for key, inner in node.entries.items() if isinstance(node, Mapping) else ():
-        if isinstance(inner, Mapping):
+    for key, inner in node.entries.items() if isinstance(node, MappingNode) else ():
+        if isinstance(inner, MappingNode):
             if name in inner.entries:
                 yield f"{key}.{name}"
             yield from (f"{key}.{place}" for place in _addresses(inner, name))
@@ -151,21 +151,21 @@ def _addresses(node: Node | None, name: str) -> Iterator[str]:
 
 def _put(entries: dict[str, Node], keys: dict[str, Mark], key: str, over: Node, mark: Mark) -> None:
     """Lay a node over an entry, or remove that entry."""
-    if isinstance(over, Scalar) and over.value is None and key in entries:
+    if isinstance(over, ScalarNode) and over.value is None and key in entries:
         del entries[key], keys[key]
         return
-    if isinstance(over, Mapping) and not _is_value(over):
+    if isinstance(over, MappingNode) and not _is_value(over):
         base = entries.get(key)
-        over = merged(base, over) if isinstance(base, Mapping) and not _is_value(base) else over
+        over = merged(base, over) if isinstance(base, MappingNode) and not _is_value(base) else over
     entries[key], keys[key] = over, mark
 
 
 def _is_value(node: Node) -> bool:
     """Whether a mapping is one number with what belongs to it: value, tune, spread, source."""
-    return isinstance(node, Mapping) and bool(node.entries) and set(node.entries) <= VALUE_KEYS
+    return isinstance(node, MappingNode) and bool(node.entries) and set(node.entries) <= VALUE_KEYS
 
 
-def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], Mapping]) -> Mapping:
+def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], MappingNode]) -> MappingNode:
     """A parent; what is wrong with the file as a whole is said where it is named."""
     try:
         # Whoever wrote `extends:` chose the file: of one that is no spec, no word is repeated.
@@ -182,22 +182,22 @@ def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], Mapp
         ) from error
 
 
-def without(node: Mapping, *words: str) -> Mapping:
+def without(node: MappingNode, *words: str) -> MappingNode:
     """The mapping without some of its keys; the same one if it has none of them."""
     if node.entries.keys().isdisjoint(words):
         return node
     entries = {name: inner for name, inner in node.entries.items() if name not in words}
-    return Mapping(entries, {name: node.keys[name] for name in entries}, node.mark, node.swapped)
+    return MappingNode(entries, {name: node.keys[name] for name in entries}, node.mark, node.swapped)
 
 
 def without_marked(node: Node, marks: Set[Mark]) -> Node:
     """The node without the entries whose keys stand at these places."""
-    if isinstance(node, Sequence):
-        return Sequence(tuple(without_marked(item, marks) for item in node.items), node.mark)
-    if not isinstance(node, Mapping):
+    if isinstance(node, SequenceNode):
+        return SequenceNode(tuple(without_marked(item, marks) for item in node.items), node.mark)
+    if not isinstance(node, MappingNode):
         return node
     kept = {key: without_marked(inner, marks) for key, inner in node.entries.items() if node.keys[key] not in marks}
-    return Mapping(kept, {key: node.keys[key] for key in kept}, node.mark, node.swapped)
+    return MappingNode(kept, {key: node.keys[key] for key in kept}, node.mark, node.swapped)
 
 
 def _words(address: str, said: str) -> tuple[str, ...]:
@@ -208,7 +208,7 @@ def _words(address: str, said: str) -> tuple[str, ...]:
     return words
 
 
-def _sectioned(spec: Mapping, words: tuple[str, ...]) -> tuple[str, ...]:
+def _sectioned(spec: MappingNode, words: tuple[str, ...]) -> tuple[str, ...]:
     """The address from the top of the spec: which section its first word belongs to."""
     first, *rest = words
     if first == "initial" and rest:
@@ -216,9 +216,9 @@ def _sectioned(spec: Mapping, words: tuple[str, ...]) -> tuple[str, ...]:
     if first in _SECTIONS or first in spec.entries or first in _SEARCHED:
         return words
     masks, measures = spec.entries.get("parameters"), spec.entries.get("measures")
-    if not rest and isinstance(masks, Mapping) and first in masks.entries:
+    if not rest and isinstance(masks, MappingNode) and first in masks.entries:
         return "parameters", first, "default"
-    found = isinstance(measures, Mapping) and first in measures.entries
+    found = isinstance(measures, MappingNode) and first in measures.entries
     return ("measures" if found else "parts", *words)
 
 
@@ -233,7 +233,7 @@ def _with(
     """The node with the value laid at the end of the words, walking down from `walked`."""
     word, *rest = words
     path = (*walked, word)
-    if isinstance(node, Sequence):
+    if isinstance(node, SequenceNode):
         last = len(node.items) - 1
         if not (word.isascii() and word.isdigit() and len(word) < 10 and int(word) <= last):
             rule = f"{word} is no item of this list" if node.items else "this list is empty"
@@ -242,19 +242,19 @@ def _with(
             return node
         at = int(word)
         item = _with(node.items[at], tuple(rest), path, value, mark, faults) if rest else value
-        return Sequence((*node.items[:at], item, *node.items[at + 1 :]), node.mark)
-    if isinstance(node, Scalar) and node.value is not None:
+        return SequenceNode((*node.items[:at], item, *node.items[at + 1 :]), node.mark)
+    if isinstance(node, ScalarNode) and node.value is not None:
         rule = f"{walked[-1]} is {_said(node.value)}, with no {word} inside"
         faults.add(f"{rule}; set {_address(walked)} as a whole.", mark, _address(walked))
         return node
-    ground = node if isinstance(node, Mapping) else Mapping({}, {}, mark)
+    ground = node if isinstance(node, MappingNode) else MappingNode({}, {}, mark)
     entries, keys = dict(ground.entries), dict(ground.keys)
     if rest:
         entries[word] = _with(entries.get(word), tuple(rest), path, value, mark, faults)
         keys.setdefault(word, mark)
     else:
         _put(entries, keys, word, value, mark)
-    return Mapping(entries, keys, ground.mark, _swapped(ground, Mapping(entries, keys, mark)))
+    return MappingNode(entries, keys, ground.mark, _swapped(ground, MappingNode(entries, keys, mark)))
 
 
 def _said(value: bool | float | str | None) -> str:

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from collections.abc import Mapping as Map
+from collections.abc import Iterator, Mapping
 
 from gaitsim.errors import Faults, did_you_mean
 from gaitsim.model import KnownValue
-from gaitsim.text.document import Mapping, Node, Scalar, Sequence
+from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode
 from gaitsim.text.quantity import number, written_unit
 
 
-def known_values(section: Node | None, units: Map[str, str], faults: Faults) -> tuple[KnownValue, ...]:
+def known_values(section: Node | None, units: Mapping[str, str], faults: Faults) -> tuple[KnownValue, ...]:
     """The rows of a section that has its shape; `units` has every metric. Wrong rows are faults and left out."""
-    rows = enumerate(section.items) if isinstance(section, Sequence) else ()
-    return tuple(value for i, row in rows if isinstance(row, Mapping) for value in _known(row, i, units, faults))
+    rows = enumerate(section.items) if isinstance(section, SequenceNode) else ()
+    return tuple(value for i, row in rows if isinstance(row, MappingNode) for value in _known(row, i, units, faults))
 
 
-def _known(row: Mapping, index: int, units: Map[str, str], faults: Faults) -> Iterator[KnownValue]:
+def _known(row: MappingNode, index: int, units: Mapping[str, str], faults: Faults) -> Iterator[KnownValue]:
     address = f"reproduces.{index}"
     entries = row.entries
     what, metric, source = (_text(entries.get(key)) for key in ("what", "metric", "source"))
@@ -39,4 +38,4 @@ def _known(row: Mapping, index: int, units: Map[str, str], faults: Faults) -> It
 
 
 def _text(node: Node | None) -> str:
-    return str(node.value) if isinstance(node, Scalar) else ""
+    return str(node.value) if isinstance(node, ScalarNode) else ""

@@ -9,7 +9,7 @@ from gaitsim.component import Parameter
 from gaitsim.errors import Faults
 from gaitsim.model import Free, Number
 from gaitsim.spec.inheritance import VALUE_KEYS
-from gaitsim.text.document import Mapping, Node, Scalar, Sequence
+from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode
 from gaitsim.text.expression import BadExpression, parse_expression
 from gaitsim.text.quantity import comma_within, example, number, written_unit
 from gaitsim.text.quantity import said as said_of
@@ -22,8 +22,8 @@ _SPEC = "spec"  # the source of what a spec says without one
 
 def is_value(node: Node) -> bool:
     """Whether a node says a number: a scalar or `{value: ..., tune: ...}`."""
-    return isinstance(node, Scalar) or (
-        isinstance(node, Mapping) and bool(node.entries) and set(node.entries) <= VALUE_KEYS
+    return isinstance(node, ScalarNode) or (
+        isinstance(node, MappingNode) and bool(node.entries) and set(node.entries) <= VALUE_KEYS
     )
 
 
@@ -95,7 +95,7 @@ class NumberTable:
         unit = parse_unit(declared.unit)
         if node is None:
             return Number(address, unit, _default(declared), source=declared.source)
-        text = node.value if isinstance(node, Scalar) else None
+        text = node.value if isinstance(node, ScalarNode) else None
         if isinstance(text, str) and text.startswith("="):
             try:
                 expression = parse_expression(text[1:], declared.unit, names)
@@ -104,7 +104,7 @@ class NumberTable:
                 return Number(address, unit, mark=node.mark)
             self._computed[len(self.numbers)] = (declared, node)
             return Number(address, unit, expression=expression, mark=node.mark)
-        if isinstance(node, Mapping):
+        if isinstance(node, MappingNode):
             return self._mapping(address, logical, node, declared, names, fraction_of)
         value = number(node, declared.unit, self.faults, address)
         if value is None:
@@ -116,7 +116,7 @@ class NumberTable:
         self,
         address: str,
         logical: str,
-        node: Mapping,
+        node: MappingNode,
         declared: Parameter,
         names: Names,
         fraction_of: int | None,
@@ -127,7 +127,7 @@ class NumberTable:
         value_node = node.entries.get("value")
         # A declaration's source is that of its own value only.
         unsaid = declared.source if value_node is None else _SPEC
-        origin = str(source.value) if isinstance(source, Scalar) else unsaid
+        origin = str(source.value) if isinstance(source, ScalarNode) else unsaid
         value: float | None = None
         if value_node is not None:
             if "tune" not in node.entries:
@@ -148,7 +148,7 @@ class NumberTable:
         self,
         address: str,
         key: tuple[str, int],
-        node: Mapping,
+        node: MappingNode,
         declared: Parameter,
         value: float | None,
         source: str,
@@ -180,9 +180,9 @@ class NumberTable:
         return Number(address, unit, start, which, fraction_of=fraction_of, source=source, mark=node.mark)
 
     def _bounds(self, node: Node, declared: Parameter, address: str) -> tuple[float, float] | None:
-        if not isinstance(node, Sequence) or len(node.items) != 2:
+        if not isinstance(node, SequenceNode) or len(node.items) != 2:
             pair = ", ".join(with_unit(str(bound), declared.unit) for bound in (1, 5))
-            hint = comma_within(node) if isinstance(node, Sequence) else ""
+            hint = comma_within(node) if isinstance(node, SequenceNode) else ""
             self.faults.add(f"tune needs two bounds; write such as tune: [{pair}].{hint}", node.mark, address)
             return None
         low, high = (number(item, declared.unit, self.faults, address) for item in node.items)
@@ -205,7 +205,7 @@ class NumberTable:
         given = unit.of(value)
         if not low - 1e-12 * abs(low) <= given <= high + 1e-12 * abs(high):
             shown = unit.shown(value)
-            words = said_of(node) if isinstance(node, Scalar) else f'"{shown}"'
+            words = said_of(node) if isinstance(node, ScalarNode) else f'"{shown}"'
             if words != f'"{shown}"':
                 words += f" is {shown}, which"
             rule = f"{words} is outside {unit.span(unit.to_si(low), unit.to_si(high))}"
@@ -219,7 +219,7 @@ def _default(declared: Parameter) -> float:
 
 def _closed(declared: Parameter, node: Node | None) -> Parameter:
     """A declaration that leaves its unit open, in the unit of what a spec says; any other as it is."""
-    while isinstance(node, Mapping):
+    while isinstance(node, MappingNode):
         node = node.entries.get("tune", node.entries.get("value"))
     unit = written_unit(node)
     if declared.unit != "*" or unit is None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping as Map
+from collections.abc import Mapping
 
 from gaitsim.errors import Mark, did_you_mean
 from gaitsim.model import TERMS, Objective
@@ -10,13 +10,18 @@ from gaitsim.spec.connect import Wiring
 from gaitsim.spec.expand import Expansion
 from gaitsim.spec.inheritance import without
 from gaitsim.spec.scope import Scope
-from gaitsim.text.document import Mapping, Node
+from gaitsim.text.document import MappingNode, Node
 from gaitsim.text.quantity import measured, said
 from gaitsim.units import parse_unit
 
 
 def read_objective(
-    section: Mapping, mark: Mark, expansion: Expansion, units: Map[str, str], scope: Scope, address: str = "objective"
+    section: MappingNode,
+    mark: Mark,
+    expansion: Expansion,
+    units: Mapping[str, str],
+    scope: Scope,
+    address: str = "objective",
 ) -> Objective | None:
     """The objective of a section whose key stands at `mark`; `units` has every metric. None after a fault."""
     faults = expansion.faults
@@ -50,15 +55,17 @@ def read_objective(
     return Objective(part, metrics, _terms(given_terms, expansion, units, scope, f"{address}.{TERMS}"))
 
 
-def _terms(node: Node, expansion: Expansion, units: Map[str, str], scope: Scope, address: str) -> tuple[Objective, ...]:
+def _terms(
+    node: Node, expansion: Expansion, units: Mapping[str, str], scope: Scope, address: str
+) -> tuple[Objective, ...]:
     """Objectives by name, whose costs are added."""
-    if not isinstance(node, Mapping):
+    if not isinstance(node, MappingNode):
         sample = "{effort: {use: objective/minimize, value: {from: effort}}}"
         expansion.faults.add(f"{said(node)} is no mapping of names; write such as terms: {sample}.", node.mark, address)
         return ()
     found = []
     for name, term in node.entries.items():
-        if not isinstance(term, Mapping):
+        if not isinstance(term, MappingNode):
             rule = "a term is a mapping that begins with use:, such as {use: objective/minimize, ...}."
             expansion.faults.add(rule, node.keys[name], f"{address}.{name}")
             continue
@@ -68,20 +75,20 @@ def _terms(node: Node, expansion: Expansion, units: Map[str, str], scope: Scope,
     return tuple(found)
 
 
-def _metrics(alone: Expansion, address: str, units: Map[str, str]) -> dict[str, str]:
+def _metrics(alone: Expansion, address: str, units: Mapping[str, str]) -> dict[str, str]:
     """What the inputs read: metrics of the run, in units that fit."""
     metrics = {}
     for wire in alone.wires:
         name = wire.target.removeprefix(f"{address}.")
-        if wire.source not in units:
-            if not alone.is_broken(wire.source):
-                hint = did_you_mean(wire.source, units)
-                alone.faults.add(f"{wire.source} is no metric. {hint}", wire.mark, wire.target)
+        if wire.sender not in units:
+            if not alone.is_broken(wire.sender):
+                hint = did_you_mean(wire.sender, units)
+                alone.faults.add(f"{wire.sender} is no metric. {hint}", wire.mark, wire.target)
             continue
-        given, asked = units[wire.source], alone.parts[0].type.inputs[name].unit
+        given, asked = units[wire.sender], alone.parts[0].type.inputs[name].unit
         if "*" not in (given, asked) and parse_unit(given).dimension != parse_unit(asked).dimension:
-            words = f"{wire.source} is {measured(parse_unit(given))} [{given}]"
+            words = f"{wire.sender} is {measured(parse_unit(given))} [{given}]"
             rule = f"{name} takes {measured(parse_unit(asked))} [{asked}]; choose another metric."
             alone.faults.add(f"{words} but {rule}", wire.mark, wire.target)
-        metrics[name] = wire.source
+        metrics[name] = wire.sender
     return metrics

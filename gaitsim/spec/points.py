@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from collections.abc import Mapping as Map
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from gaitsim.component import Parameter
@@ -11,7 +10,7 @@ from gaitsim.errors import Faults, did_you_mean
 from gaitsim.model import WORLD, Place
 from gaitsim.spec.numbers import NumberTable
 from gaitsim.spec.scope import Where, absolute
-from gaitsim.text.document import Mapping, Node, Scalar, Sequence
+from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode
 from gaitsim.text.quantity import comma_within
 from gaitsim.text.spelling import respelled
 
@@ -26,21 +25,21 @@ class PointReader:
 
     table: NumberTable
     faults: Faults
-    frames: Map[str, str]
+    frames: Mapping[str, str]
     broken: Callable[[str], bool]
     _waiting: list[tuple[str, Node, Where, list[Place]]] = field(default_factory=list)
 
-    def later(self, name: str, node: Mapping, where: Where) -> list[Place]:
+    def later(self, name: str, node: MappingNode, where: Where) -> list[Place]:
         """The points of an entry, empty until `read_all`."""
         given, places = node.entries.get(name), list[Place]()
-        if isinstance(given, Sequence):
+        if isinstance(given, SequenceNode):
             self._waiting.append((name, given, where, places))
         else:
             rule = f"needs {name}, a list of places; write {name}: [{{on: shank, at: [-4 cm, 0 m, 30 %]}}, ...]."
             self.faults.add(rule, given.mark if given else where.mark, where.address)
         return places
 
-    def one_later(self, name: str, node: Mapping, where: Where) -> list[Place]:
+    def one_later(self, name: str, node: MappingNode, where: Where) -> list[Place]:
         """The place that an attachment says, `{on: pelvis.center, at: [...]}`; empty until `read_all`."""
         places = list[Place]()
         self._waiting.append((name, node, where, places))
@@ -49,8 +48,8 @@ class PointReader:
     def read_all(self) -> None:
         """Read every point that waits."""
         for name, node, where, places in self._waiting:
-            items = node.items if isinstance(node, Sequence) else (node,)
-            names = [f"{name}.{i}" for i in range(len(items))] if isinstance(node, Sequence) else [name]
+            items = node.items if isinstance(node, SequenceNode) else (node,)
+            names = [f"{name}.{i}" for i in range(len(items))] if isinstance(node, SequenceNode) else [name]
             found = [self._place(each, item, where) for each, item in zip(names, items, strict=True)]
             places += [place for place in found if place]
         self._waiting.clear()
@@ -58,21 +57,21 @@ class PointReader:
     def _place(self, name: str, node: Node, where: Where) -> Place | None:
         address = f"{where.address}.{name}"
         before = len(self.faults.found)
-        if isinstance(node, Mapping):
+        if isinstance(node, MappingNode):
             node = respelled(node, _FIELDS, "a point has no key", self.faults, address)
-        if not isinstance(node, Mapping) or set(node.entries) != set(_FIELDS):
+        if not isinstance(node, MappingNode) or set(node.entries) != set(_FIELDS):
             if len(self.faults.found) > before:
                 return None
             rule = "a point says on which part it lies and where; write {on: shank, at: [-4 cm, 0 m, 30 %]}."
             self.faults.add(rule, node.mark, address)
             return None
         on, at = node.entries["on"], node.entries["at"]
-        if not isinstance(at, Sequence) or len(at.items) != 3:
-            hint = comma_within(at) if isinstance(at, Sequence) else ""
+        if not isinstance(at, SequenceNode) or len(at.items) != 3:
+            hint = comma_within(at) if isinstance(at, SequenceNode) else ""
             rule = "at: needs three coordinates; write such as at: [-4 cm, 0 m, 30 %]."
             self.faults.add(f"{rule}{hint}", at.mark, address)
             return None
-        if not isinstance(on, Scalar) or not isinstance(on.value, str):
+        if not isinstance(on, ScalarNode) or not isinstance(on.value, str):
             self.faults.add("on: names a part or a frame; write such as on: shank.", on.mark, address)
             return None
         frame = absolute(on.value, where, on.mark, self.faults)
@@ -81,7 +80,7 @@ class PointReader:
         x, y, z = (self._coordinate(f"{name}.at.{i}", item, where, frame) for i, item in enumerate(at.items))
         return Place(frame, (x, y, z))
 
-    def _has_frame(self, frame: str, on: Scalar, address: str) -> bool:
+    def _has_frame(self, frame: str, on: ScalarNode, address: str) -> bool:
         """Whether points can lie on a part or a frame."""
         if frame == WORLD or any(f == frame or f.startswith(f"{frame}.") for f in self.frames):
             return True
@@ -92,8 +91,8 @@ class PointReader:
 
     def _coordinate(self, name: str, node: Node, where: Where, frame: str) -> int:
         address, logical = f"{where.address}.{name}", f"{where.logical}.{name}"
-        value = node.entries.get("value") if isinstance(node, Mapping) else node
-        text = value.value if isinstance(value, Scalar) else None
+        value = node.entries.get("value") if isinstance(node, MappingNode) else node
+        text = value.value if isinstance(value, ScalarNode) else None
         if not (isinstance(text, str) and text.rstrip().endswith("%")):
             return self.table.add(address, logical, node, _LENGTH, where.scope.names)
         length = self._length(frame)

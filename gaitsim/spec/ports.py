@@ -9,7 +9,7 @@ from gaitsim.component import Input, Link, Option, Parameter
 from gaitsim.errors import Faults, Mark, did_you_mean
 from gaitsim.spec.numbers import Names, NumberTable, is_value
 from gaitsim.spec.scope import Where, absolute
-from gaitsim.text.document import Mapping, Node, Scalar, Sequence
+from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode
 from gaitsim.text.quantity import said as said_of
 from gaitsim.text.spelling import respelled
 
@@ -21,7 +21,7 @@ _FIELDS = ("from", "delay", "initial")
 class Wire:
     """A connection as written: addresses absolute, aliases of composites not yet followed."""
 
-    source: str
+    sender: str
     target: str
     delay: int | None
     initial: Node | None
@@ -50,33 +50,33 @@ class PortReader:
     tried: set[str] = field(default_factory=set)  # inputs that an entry says something about
     marks: dict[str, Mark] = field(default_factory=dict)  # where attachments are written
 
-    def wire(self, source: str, target: str, where: Where) -> None:
+    def wire(self, sender: str, target: str, where: Where) -> None:
         """A connection that a part makes with its own inner part."""
-        self.wires.append(Wire(source, target, None, None, where.address, where.mark))
+        self.wires.append(Wire(sender, target, None, None, where.address, where.mark))
 
-    def input(self, name: str, declared: Input, node: Mapping, where: Where) -> None:
+    def input(self, name: str, declared: Input, node: MappingNode, where: Where) -> None:
         """Wire an input, or give it a constant."""
         given, port = node.entries.get(name), f"{where.address}.{name}"
         if given is None:
             return
         self.tried.add(port)
-        if isinstance(given, Mapping) and not is_value(given):
+        if isinstance(given, MappingNode) and not is_value(given):
             if declared.sums:
-                source = given.entries.get("from")
-                sender = f" of {source.value}" if isinstance(source, Scalar) else ""
+                written = given.entries.get("from")
+                sender = f" of {written.value}" if isinstance(written, ScalarNode) else ""
                 rule = f"this input sums its senders; write to: {port} at the part{sender} instead."
                 self.faults.add(rule, given.mark, port)
             else:
                 self._from(given, port, f"{where.logical}.{name}", where)
             return
-        text = given.value if isinstance(given, Scalar) else None
+        text = given.value if isinstance(given, ScalarNode) else None
         if isinstance(text, str) and text[:1] not in "=+-.0123456789":
             rule = f'"{text}" is no number; to connect this input, write {name}: {{from: {text}}}.'
             self.faults.add(rule, given.mark, port)
             return
         self.constants.append(Constant(port, f"{where.logical}.{name}", given, where.scope.names))
 
-    def link(self, name: str, declared: Link, node: Mapping, where: Where) -> None:
+    def link(self, name: str, declared: Link, node: MappingNode, where: Where) -> None:
         """The connections that the name of another part makes."""
         given = node.entries.get(name)
         if given is None:
@@ -88,14 +88,14 @@ class PortReader:
             return
         reads = [(f"{other}.{theirs}", f"{where.address}.{own}") for own, theirs in declared.reads]
         sends = [(f"{where.address}.{own}", f"{other}.{theirs}") for theirs, own in declared.sends]
-        self.wires += [Wire(source, target, None, None, where.address, given.mark) for source, target in reads + sends]
+        self.wires += [Wire(sender, target, None, None, where.address, given.mark) for sender, target in reads + sends]
 
-    def to(self, node: Mapping, outputs: list[str], where: Where) -> None:
+    def to(self, node: MappingNode, outputs: list[str], where: Where) -> None:
         """Send outputs to summing inputs: `to: port`, `to: [ports]`, or `to: {output: port(s)}`."""
         given = node.entries.get("to")
         if given is None:
             return
-        if isinstance(given, Mapping) and "port" not in given.entries:
+        if isinstance(given, MappingNode) and "port" not in given.entries:
             for name, target in given.entries.items():
                 if name in outputs:
                     self._send(name, target, where)
@@ -109,7 +109,7 @@ class PortReader:
             rule = f"to: needs the name of an output (here: {names}); write to: {{output: part.port}}."
             self.faults.add(rule, given.mark, where.address)
 
-    def attachments(self, names: Iterable[str], node: Mapping, where: Where) -> dict[str, str]:
+    def attachments(self, names: Iterable[str], node: MappingNode, where: Where) -> dict[str, str]:
         """The frames that an entry is fastened to."""
         found = {}
         for name in names:
@@ -125,11 +125,11 @@ class PortReader:
                 self.marks[f"{where.address}.{name}"] = given.mark
         return found
 
-    def option(self, name: str, declared: Option, node: Mapping, where: Where) -> str:
+    def option(self, name: str, declared: Option, node: MappingNode, where: Where) -> str:
         """The word chosen for an option."""
         given = node.entries.get(name)
-        value = given.value if isinstance(given, Scalar) else declared.default
-        if value in declared.choices and (given is None or isinstance(given, Scalar)):
+        value = given.value if isinstance(given, ScalarNode) else declared.default
+        if value in declared.choices and (given is None or isinstance(given, ScalarNode)):
             return str(value)
         choices = ", ".join(declared.choices)
         said = "is not said" if given is None else f"cannot be {said_of(given)}"
@@ -137,44 +137,44 @@ class PortReader:
         self.faults.add(f"{name} {said}; choose one of {choices}.", mark, where.address)
         return declared.choices[0]
 
-    def _from(self, given: Mapping, port: str, logical: str, where: Where) -> None:
+    def _from(self, given: MappingNode, port: str, logical: str, where: Where) -> None:
         given = respelled(given, _FIELDS, "a connection has no key", self.faults, port)
-        source = given.entries.get("from")
-        if source is None:
+        written = given.entries.get("from")
+        if written is None:
             self.faults.add("this connection has no sender; write such as {from: soleus.force}.", given.mark, port)
             return
-        text = self._text(source, "from: names an output; write such as {from: soleus.force}.", where)
-        sender = absolute(text, where, source.mark, self.faults) if text else None
+        text = self._text(written, "from: names an output; write such as {from: soleus.force}.", where)
+        sender = absolute(text, where, written.mark, self.faults) if text else None
         if sender:
             delay = self._delay(given, port, logical, where)
-            self.wires.append(Wire(sender, port, delay, given.entries.get("initial"), "", source.mark))
+            self.wires.append(Wire(sender, port, delay, given.entries.get("initial"), "", written.mark))
 
     def _send(self, output: str, node: Node, where: Where) -> None:
-        if isinstance(node, Sequence):
+        if isinstance(node, SequenceNode):
             for item in node.items:
                 self._send(output, item, where)
             return
-        source, delay = f"{where.address}.{output}", None
+        sender, delay = f"{where.address}.{output}", None
         target: Node = node
-        if isinstance(node, Mapping):
-            node = respelled(node, ("port", "delay"), "a connection here has no key", self.faults, source)
+        if isinstance(node, MappingNode):
+            node = respelled(node, ("port", "delay"), "a connection here has no key", self.faults, sender)
             target = node.entries.get("port", node)
         text = self._text(target, "to: names a summing input; write such as to: soleus.excitation.", where)
         found = absolute(text, where, target.mark, self.faults) if text else None
         if found is None:
             return
-        if isinstance(node, Mapping):
-            delay = self._delay(node, f"{source}.to.{found}", f"{where.logical}.{output}.to.{text}", where)
-        self.wires.append(Wire(source, found, delay, None, "", target.mark))
+        if isinstance(node, MappingNode):
+            delay = self._delay(node, f"{sender}.to.{found}", f"{where.logical}.{output}.to.{text}", where)
+        self.wires.append(Wire(sender, found, delay, None, "", target.mark))
 
-    def _delay(self, node: Mapping, address: str, logical: str, where: Where) -> int | None:
+    def _delay(self, node: MappingNode, address: str, logical: str, where: Where) -> int | None:
         delay = node.entries.get("delay")
         if delay is None:
             return None
         return self.table.add(f"{address}.delay", f"{logical}.delay", delay, _DELAY, where.scope.names)
 
     def _text(self, node: Node, rule: str, where: Where) -> str:
-        if isinstance(node, Scalar) and isinstance(node.value, str):
+        if isinstance(node, ScalarNode) and isinstance(node.value, str):
             return node.value
         self.faults.add(rule, node.mark, where.address)
         return ""

@@ -19,12 +19,12 @@ from gaitsim.spec.numbers import NumberTable
 from gaitsim.spec.objective import read_objective
 from gaitsim.spec.schema import Header, header
 from gaitsim.spec.scope import Scope
-from gaitsim.text.document import Mapping, Node, Scalar
+from gaitsim.text.document import MappingNode, Node, ScalarNode
 
 Settings = Iterable[tuple[str, str]]
 
 
-def read_spec(path: Path, settings: Settings = ()) -> Mapping:
+def read_spec(path: Path, settings: Settings = ()) -> MappingNode:
     """The spec's document with its parents merged in and `--set` applied.
 
     Errors: InvalidSpec.
@@ -35,7 +35,7 @@ def read_spec(path: Path, settings: Settings = ()) -> Mapping:
     return document
 
 
-def resolve(document: Mapping, library: Library, name: str) -> Model:
+def resolve(document: MappingNode, library: Library, name: str) -> Model:
     """The model of a document.
 
     Errors: InvalidSpec with every fault found.
@@ -43,7 +43,7 @@ def resolve(document: Mapping, library: Library, name: str) -> Model:
     faults = Faults()
     head, document = header(document, faults)
     _check_names(document)
-    if not isinstance(document.entries.get("parts"), Mapping):
+    if not isinstance(document.entries.get("parts"), MappingNode):
         faults.raise_if_any()
     table = NumberTable(faults)
     expansion = Expansion(library, faults, _kinds(document, library, faults), table)
@@ -100,13 +100,13 @@ def _few(names: list[str]) -> str:
     return ", ".join(names if len(names) < 4 else [*names[:2], f"{len(names) - 2} more"])
 
 
-def _kinds(document: Mapping, library: Library, faults: Faults) -> dict[str, Mapping]:
+def _kinds(document: MappingNode, library: Library, faults: Faults) -> dict[str, MappingNode]:
     """`use_for`: kinds that are swapped as a whole, each with what its parts then say."""
     section, found = _section(document, "use_for"), {}
     for kind, node in section.entries.items():
-        entry = node if isinstance(node, Mapping) else Mapping({"use": node}, {"use": node.mark}, node.mark)
+        entry = node if isinstance(node, MappingNode) else MappingNode({"use": node}, {"use": node.mark}, node.mark)
         use = entry.entries.get("use")
-        reference = use.value if isinstance(use, Scalar) else None
+        reference = use.value if isinstance(use, ScalarNode) else None
         if not isinstance(reference, str):
             sample = f"{kind}/..., or {{use: {kind}/..., ...}}"
             faults.add(f"this names no component; write {kind}: {sample}.", node.mark, f"use_for.{kind}")
@@ -123,7 +123,7 @@ def _kinds(document: Mapping, library: Library, faults: Faults) -> dict[str, Map
     return found
 
 
-def _mask(document: Mapping, table: NumberTable, scope: Scope, faults: Faults) -> None:
+def _mask(document: MappingNode, table: NumberTable, scope: Scope, faults: Faults) -> None:
     """The spec's own parameters."""
     section = _section(document, "parameters")
     declared, defaults = declared_parameters(section, faults)
@@ -134,7 +134,7 @@ def _mask(document: Mapping, table: NumberTable, scope: Scope, faults: Faults) -
         scope.names[name] = (index, parameter.unit)
 
 
-def _check_names(document: Mapping) -> None:
+def _check_names(document: MappingNode) -> None:
     """One namespace: a name stands for one thing.
 
     Errors: InvalidSpec; what else is wrong cannot be told before names are clear.
@@ -152,7 +152,7 @@ def _check_names(document: Mapping) -> None:
     faults.raise_if_any()
 
 
-def _initial(section: Mapping, wiring: Wiring, scope: Scope) -> dict[str, int]:
+def _initial(section: MappingNode, wiring: Wiring, scope: Scope) -> dict[str, int]:
     """Initial coordinates and states: address of an output or a state -> number."""
     found = {}
     for key, node in section.entries.items():
@@ -168,6 +168,6 @@ def _initial(section: Mapping, wiring: Wiring, scope: Scope) -> dict[str, int]:
     return found
 
 
-def _section(document: Mapping, name: str) -> Mapping:
+def _section(document: MappingNode, name: str) -> MappingNode:
     node: Node | None = document.entries.get(name)
-    return node if isinstance(node, Mapping) else Mapping({}, {}, document.mark)
+    return node if isinstance(node, MappingNode) else MappingNode({}, {}, document.mark)

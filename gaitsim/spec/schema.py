@@ -10,7 +10,7 @@ from pydantic_core import PydanticCustomError
 
 from gaitsim.errors import Faults, Mark, alternatives
 from gaitsim.optimization.algorithms import ALGORITHMS, DEFAULT
-from gaitsim.text.document import Mapping, Node, Sequence, plain
+from gaitsim.text.document import MappingNode, Node, SequenceNode, plain
 from gaitsim.text.quantity import BadQuantity, example, needed, quantity_of
 from gaitsim.text.spelling import respelled
 
@@ -164,29 +164,29 @@ _SECTIONS: dict[str, type[_Section]] = {"simulate": SimulateSection, "optimize":
 _ROWS: dict[str, type[_Section]] = {"reproduces": KnownRow}
 
 
-def optimize_section(document: Mapping) -> OptimizeSection:
+def optimize_section(document: MappingNode) -> OptimizeSection:
     """How a resolved document wants to be searched."""
     section = document.entries.get("optimize")
-    return OptimizeSection.model_validate(plain(section) if isinstance(section, Mapping) else {})
+    return OptimizeSection.model_validate(plain(section) if isinstance(section, MappingNode) else {})
 
 
-def header(document: Mapping, faults: Faults) -> tuple[Header | None, Mapping]:
+def header(document: MappingNode, faults: Faults) -> tuple[Header | None, MappingNode]:
     """The header of a document, None after faults, and the document with its keys as they were meant."""
     document = respelled(document, Header.model_fields, "a spec has no key", faults)
     for name, model in _SECTIONS.items():
         section = document.entries.get(name)
-        if isinstance(section, Mapping):
+        if isinstance(section, MappingNode):
             document = _with(document, name, respelled(section, model.model_fields, f"{name} has no key", faults))
     for name, model in _ROWS.items():
         rows = document.entries.get(name)
-        if isinstance(rows, Sequence):
+        if isinstance(rows, SequenceNode):
             items = (
                 respelled(item, model.model_fields, f"a row of {name} has no key", faults, f"{name}.{i}")
-                if isinstance(item, Mapping)
+                if isinstance(item, MappingNode)
                 else item
                 for i, item in enumerate(rows.items)
             )
-            document = _with(document, name, Sequence(tuple(items), rows.mark))
+            document = _with(document, name, SequenceNode(tuple(items), rows.mark))
     try:
         made = Header.model_validate({k: v for k, v in plain(document).items() if v is not None})
     except ValidationError as error:
@@ -197,12 +197,12 @@ def header(document: Mapping, faults: Faults) -> tuple[Header | None, Mapping]:
     return made, document
 
 
-def _with(document: Mapping, name: str, section: Node) -> Mapping:
+def _with(document: MappingNode, name: str, section: Node) -> MappingNode:
     """The document with another section of this name."""
-    return Mapping(document.entries | {name: section}, document.keys, document.mark)
+    return MappingNode(document.entries | {name: section}, document.keys, document.mark)
 
 
-def _check_steps(simulate: SimulateSection, document: Mapping, faults: Faults) -> None:
+def _check_steps(simulate: SimulateSection, document: MappingNode, faults: Faults) -> None:
     steps = simulate.duration / simulate.step
     if not 1 <= steps <= _MOST_STEPS:
         rule = f"a step of {simulate.step:g} s is longer than the duration, {simulate.duration:g} s"
@@ -212,7 +212,7 @@ def _check_steps(simulate: SimulateSection, document: Mapping, faults: Faults) -
         faults.add(f"{rule}; {move}.", _mark(document, ["simulate", "step"]), "simulate.step")
 
 
-def _report(detail: Any, document: Mapping, faults: Faults) -> None:
+def _report(detail: Any, document: MappingNode, faults: Faults) -> None:
     """One mistake that pydantic found, in our words."""
     path = [word for word in detail["loc"] if word != "[key]"]
     address = ".".join(str(word) for word in path)
@@ -251,15 +251,15 @@ def _report(detail: Any, document: Mapping, faults: Faults) -> None:
             faults.add(f"this needs {wanted}{move}.", mark, address)
 
 
-def _mark(document: Mapping, path: list[Any]) -> Mark:
+def _mark(document: MappingNode, path: list[Any]) -> Mark:
     """The place of the deepest word of a path that the document has."""
     node: Node = document
     mark = document.mark
     for word in path:
-        if isinstance(node, Mapping) and word in node.entries:
+        if isinstance(node, MappingNode) and word in node.entries:
             known_key, node = node.keys[word], node.entries[word]
-            mark = known_key if isinstance(node, Mapping | Sequence) else node.mark
-        elif isinstance(node, Sequence) and isinstance(word, int) and word < len(node.items):
+            mark = known_key if isinstance(node, MappingNode | SequenceNode) else node.mark
+        elif isinstance(node, SequenceNode) and isinstance(word, int) and word < len(node.items):
             node = node.items[word]
             mark = node.mark
         else:

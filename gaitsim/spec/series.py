@@ -9,7 +9,7 @@ from gaitsim.components.find import Library, at
 from gaitsim.components.table import resampled
 from gaitsim.errors import Faults, GaitsimError
 from gaitsim.model import Recording
-from gaitsim.text.document import Node, Scalar, Sequence
+from gaitsim.text.document import Node, ScalarNode, SequenceNode
 from gaitsim.text.quantity import comma_within, example, measured, number, written_unit
 from gaitsim.units import parse_unit
 
@@ -20,7 +20,7 @@ def read_series(
     name: str, declared: Series, node: Node, library: Library, faults: Faults, address: str
 ) -> Recording | None:
     """The numbers of a series in SI, `declared.size` of them at equal distances; None after a fault."""
-    if isinstance(node, Sequence):
+    if isinstance(node, SequenceNode):
         before = len(faults.found)
         comma = comma_within(node)
         if comma:
@@ -35,7 +35,7 @@ def read_series(
         if len(faults.found) > before:
             return None
         return Recording(resampled(np.linspace(0, 1, len(given)), np.array(given), declared.size), unit=unit)
-    text = node.value if isinstance(node, Scalar) else None
+    text = node.value if isinstance(node, ScalarNode) else None
     if not isinstance(text, str) or "/" not in text:
         one = example("1" if declared.unit == "*" else declared.unit)
         rule = f"{name} is a recorded curve; write a column of a table, such as {SAMPLE}"

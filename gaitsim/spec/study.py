@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import itertools
 import re
-from collections.abc import Sequence as Many
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 from gaitsim.errors import Faults, Mark, Usage
 from gaitsim.spec.inheritance import laid, override, split_setting, without
-from gaitsim.text.document import Mapping, Node, Sequence, dump, plain
+from gaitsim.text.document import MappingNode, Node, SequenceNode, dump, plain
 from gaitsim.text.quantity import in_plain_letters, said, unknown_unit
 from gaitsim.units import UnknownUnit, parse_quantity, with_unit
 
@@ -21,7 +21,7 @@ class Variant:
     """One row of a study: what is set, as written, and the spec with it; and where the row is written."""
 
     settings: dict[str, str]
-    document: Mapping
+    document: MappingNode
     mark: Mark | None = None
 
 
@@ -48,7 +48,7 @@ def span(text: str) -> tuple[str, Span]:
     return address, found
 
 
-def variants(document: Mapping, vary: Many[str]) -> list[Variant]:
+def variants(document: MappingNode, vary: Sequence[str]) -> list[Variant]:
     """Every row of the spec's `study:` combined with every value of each `--vary`.
 
     Errors: Usage for a `--vary` that is no list of values, InvalidSpec for a bad study.
@@ -66,25 +66,25 @@ def variants(document: Mapping, vary: Many[str]) -> list[Variant]:
     return rows
 
 
-def episodes(document: Mapping) -> list[Variant]:
+def episodes(document: MappingNode) -> list[Variant]:
     """Every episode of the spec's `optimize:`; the spec as it is, if it has none.
 
     Errors: InvalidSpec for a bad list of episodes.
     """
     section = document.entries.get("optimize")
-    inside = section if isinstance(section, Mapping) else Mapping({}, {}, document.mark)
+    inside = section if isinstance(section, MappingNode) else MappingNode({}, {}, document.mark)
     given = inside.entries.get("episodes")
     return _table(given, inside.keys.get("episodes"), document, "optimize.episodes")
 
 
-def _table(section: Node | None, key: Mark | None, base: Mapping, name: str) -> list[Variant]:
+def _table(section: Node | None, key: Mark | None, base: MappingNode, name: str) -> list[Variant]:
     """The rows of a list of overrides; without one, the base as it is."""
     if section is None or plain(section) in (None, []):
         return [Variant({}, base)]
     rows, faults = [], Faults()
     word = name.rpartition(".")[2]
-    for item in section.items if isinstance(section, Sequence) else (section,):
-        if not isinstance(item, Mapping) or item is section:
+    for item in section.items if isinstance(section, SequenceNode) else (section,):
+        if not isinstance(item, MappingNode) or item is section:
             rule = f"{said(item)} is no list of overrides; write {word}: [{{feedback.gain: 2}}, {{feedback.gain: 3}}]."
             faults.add(rule, key if item is section else item.mark, name)
             continue

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from collections.abc import Mapping as Map
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -92,7 +91,7 @@ def _is_code(path: Path) -> bool:
     return path.suffix in (".py", ".yaml", ".csv") and path.is_file()
 
 
-def _with(bundle: Bundle, reference: str, texts: Map[str, str]) -> Bundle:
+def _with(bundle: Bundle, reference: str, texts: Mapping[str, str]) -> Bundle:
     """A bundle with the present version of a component, and of files that it shares, in the place of its copies.
 
     What a new version needs and the result does not have comes from the libraries.
@@ -125,7 +124,7 @@ def _of_result(user: UsingResult, bundle: Bundle) -> Iterator[Difference]:
         yield from (replace(d, run=run) for d in differences([_row(row, model.metrics)], [_row(now, model.metrics)]))
 
 
-def _row(data: Map[str, Any], units: Map[str, str]) -> Row:
+def _row(data: Mapping[str, Any], units: Mapping[str, str]) -> Row:
     """A run as a record has it, with a tolerance for what rounding does."""
     numbers = {STEPS: (float(data["steps"]), "1"), SCORE: (data["score"], "1")}
     numbers |= {name: (value, units.get(name, "1")) for name, value in data["metrics"].items()}

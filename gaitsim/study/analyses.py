@@ -18,8 +18,8 @@ if TYPE_CHECKING:
     from gaitsim.analysis.replays.replay import Replay
     from gaitsim.animation.video import VideoOptions
     from gaitsim.study.listening import Listener
+    from gaitsim.study.opened import Opened
     from gaitsim.study.opening import Opening
-    from gaitsim.study.source import Source
 
 
 @dataclass(frozen=True)
@@ -81,10 +81,10 @@ def analyzed(openings: Sequence[Opening], candidates: Sequence[str], wanted: Wan
     window = seconds_of("--from-time", wanted.from_time), seconds_of("--to-time", wanted.to_time)
     spacing = seconds_of("--every", wanted.every)
     products = Products(Path(), listener=listener)
-    sources = _opened(openings, candidates, products)
-    products.folder = writable(wanted.folder or _default_folder(sources))
+    runs = _opened(openings, candidates, products)
+    products.folder = writable(wanted.folder or _default_folder(runs))
     with listener.waiting("running again"):
-        replays = _replayed(sources, window, products)
+        replays = _replayed(runs, window, products)
     against = [wanted.against] if wanted.against else []
     _say_lacking(replays, [*wanted.plot, *wanted.return_map, *against], listener)
     asked = _asked(replays, wanted.plot, wanted.against, wanted.return_map)
@@ -102,12 +102,12 @@ def analyzed(openings: Sequence[Opening], candidates: Sequence[str], wanted: Wan
 
 def _opened(
     openings: Sequence[Opening], candidates: Sequence[str], products: Products
-) -> list[tuple[Path, str, Source]]:
+) -> list[tuple[Path, str, Opened]]:
     """Path, label and source of each run; what cannot be opened is said.
 
     Errors: GaitsimError if nothing can be.
     """
-    found: list[tuple[Path, str, Source]] = []
+    found: list[tuple[Path, str, Opened]] = []
     for opening in openings:
         path, result = opening.path, opening.names_result
         usual: list[str | None] = ["best" if result else None]
@@ -117,7 +117,7 @@ def _opened(
             if label in (known for _, known, _ in found):
                 label = f"{path} {which}" if which else str(path)
             try:
-                found.append((path, label, replace(opening, candidate=which).source()))
+                found.append((path, label, replace(opening, candidate=which).open()))
             except GaitsimError as error:
                 products.refuse_if_others(error, len(openings) * len(candidates or [None]))
     if not found:
@@ -126,17 +126,17 @@ def _opened(
 
 
 def _replayed(
-    sources: list[tuple[Path, str, Source]], window: tuple[float | None, float | None], products: Products
+    runs: list[tuple[Path, str, Opened]], window: tuple[float | None, float | None], products: Products
 ) -> list[Replay]:
     """The runs, as far as they are looked at. Errors: GaitsimError if none has an instant."""
     from gaitsim.study.replays import replay_of
 
     found: list[Replay] = []
-    for path, label, source in sources:
+    for path, label, opened in runs:
         try:
-            found.append(_looked_at(replay_of(source, path, label), window))
+            found.append(_looked_at(replay_of(opened, path, label), window))
         except GaitsimError as error:
-            products.refuse_if_others(error, len(sources))
+            products.refuse_if_others(error, len(runs))
     if not found:
         raise products.faults[0]
     for notice in dict.fromkeys(notice for replay in found for notice in replay.notices):
@@ -192,11 +192,11 @@ def _say_lacking(replays: list[Replay], words: Sequence[str], listener: Listener
             listener.say(f"{text}: {', '.join(without)} has no such signal")
 
 
-def _default_folder(sources: list[tuple[Path, str, Source]]) -> Path:
+def _default_folder(runs: list[tuple[Path, str, Opened]]) -> Path:
     """Inside the result, or below analysis/ for a spec; a comparison has a folder of its own there."""
-    path, _, source = sources[0]
-    own = path if source.manifest else Path("analysis") / source.name
-    return own if len(sources) == 1 else own / "comparison"
+    path, _, opened = runs[0]
+    own = path if opened.manifest else Path("analysis") / opened.name
+    return own if len(runs) == 1 else own / "comparison"
 
 
 def writable(folder: Path) -> Path:

@@ -20,6 +20,7 @@ from gaitsim.simulation.threads import cores, in_threads
 from gaitsim.spec.inheritance import without
 from gaitsim.spec.study import Variant, variants
 from gaitsim.study.listening import Listener
+from gaitsim.study.opened import Opened
 from gaitsim.study.opening import Opening
 from gaitsim.study.records import (
     OR,
@@ -40,7 +41,6 @@ from gaitsim.study.records import (
     run_words,
     write_record,
 )
-from gaitsim.study.source import Source
 from gaitsim.text.document import dump, plain
 
 # Another machine rounds otherwise, by 1e-16 of a number at each operation. A billionth of gravity is far more than
@@ -58,29 +58,29 @@ class Archived:
     folders: tuple[Path, ...] = ()
 
     @cached_property
-    def source(self) -> Source:
-        """The spec at its tuned values. Errors: as of `Opening.source`."""
-        return Opening(self.path, folders=self.folders).source()
+    def opened(self) -> Opened:
+        """The spec at its tuned values. Errors: as of `Opening.open`."""
+        return Opening(self.path, folders=self.folders).open()
 
     @cached_property
     def rows(self) -> list[Variant]:
         """Its runs: one, or those of its study. Errors: InvalidSpec."""
-        return variants(self.source.document, [])
+        return variants(self.opened.document, [])
 
     @cached_property
     def models(self) -> list[Model]:
         """The model of each run. Errors: InvalidSpec, InvalidComponent."""
-        return [self.source.model(row.document) for row in self.rows]
+        return [self.opened.model(row.document) for row in self.rows]
 
     def made_from(self) -> MadeFrom:
         """The versions of what the models are made from."""
         assert self.models
-        source = self.source
-        tuned = digest_of(json.dumps(dict(source.starts)))[:SHORT] if source.starts else None
+        opened = self.opened
+        tuned = digest_of(json.dumps(dict(opened.starts)))[:SHORT] if opened.starts else None
         return MadeFrom(
-            spec=digest_of(dump(plain(without(source.document, "reproduces"))))[:SHORT],
+            spec=digest_of(dump(plain(without(opened.document, "reproduces"))))[:SHORT],
             tuned=tuned,
-            components=versions(source.library),
+            components=versions(opened.library),
         )
 
 
@@ -113,7 +113,7 @@ class Recording:
 def versions(library: Library) -> dict[str, str]:
     """The first letters of the digest of each component and table that was used, by reference."""
     files = {r: c.digest for r, c in library.used().items()}
-    tables = {r: digest_of(table.source) for r, table in library.used_tables().items()}
+    tables = {r: digest_of(table.text) for r, table in library.used_tables().items()}
     return {reference: digest[:SHORT] for reference, digest in sorted((files | tables).items())}
 
 

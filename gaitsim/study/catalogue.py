@@ -19,7 +19,7 @@ from gaitsim.study.archive import Archived
 from gaitsim.study.known import Compared, compared
 from gaitsim.study.listening import Listener
 from gaitsim.study.records import BadRecord, Row, read_record
-from gaitsim.text.document import Mapping, dump, plain, read
+from gaitsim.text.document import MappingNode, dump, plain, read
 
 _SOURCE = re.compile(r"\bsource: ([^,}\n]+)")
 _SENTENCE = re.compile(r"(?<!\bal)(?<=[a-z)])[.:](?:\s|$)")
@@ -74,7 +74,7 @@ def _entry(spec: Archived) -> Entry:
     return Entry(spec.name, about, summary, papers, tuned, above[0].stem if above else "", run.status, metrics, known)
 
 
-def _known(spec: Archived, document: Mapping, recorded: dict[str, str]) -> tuple[KnownValue, ...]:
+def _known(spec: Archived, document: MappingNode, recorded: dict[str, str]) -> tuple[KnownValue, ...]:
     """The known values of a spec; `recorded` has the units of metrics. Errors: InvalidSpec."""
     faults = Faults()
     head, document = header(document, faults)

@@ -15,8 +15,8 @@ from gaitsim.study.replays import replay_of
 if TYPE_CHECKING:
     from gaitsim.analysis.replays.replay import Replay
     from gaitsim.study.listening import Listener
+    from gaitsim.study.opened import Opened
     from gaitsim.study.opening import Opening
-    from gaitsim.study.source import Source
 
 
 @dataclass(frozen=True)
@@ -73,10 +73,10 @@ def compared(
 
     pair = [replace(each, candidate="best") if each.names_result else each for each in (first, second)]
     labels = _labels(first.path, second.path)
-    sources = [opening.source() for opening in pair]
-    changes = _changes(sources)
+    both = [opening.open() for opening in pair]
+    changes = _changes(both)
     with listener.waiting("running again"):
-        replays = [replay_of(source, o.path, label) for source, o, label in zip(sources, pair, labels, strict=True)]
+        replays = [replay_of(opened, o.path, label) for opened, o, label in zip(both, pair, labels, strict=True)]
     for notice in dict.fromkeys(notice for replay in replays for notice in replay.notices):
         listener.say(notice)
     for replay in replays:
@@ -98,10 +98,10 @@ def _labels(first: Path, second: Path) -> tuple[str, str]:
     return names if names[0] != names[1] else (str(first), str(second))
 
 
-def _changes(sources: Sequence[Source]) -> list[Change]:
-    models = [source.model() for source in sources]
-    bundles = [source.bundle([model]) for source, model in zip(sources, models, strict=True)]
-    one, other = sources
+def _changes(both: Sequence[Opened]) -> list[Change]:
+    models = [opened.model() for opened in both]
+    bundles = [opened.bundle([model]) for opened, model in zip(both, models, strict=True)]
+    one, other = both
     making = making_changes(one.manifest, other.manifest)
     return ordered([*model_changes(*models), *code_changes(*bundles), *making])
 

@@ -120,10 +120,10 @@ def cycle(opening: Opening, mode: Mode, listener: Listener, hear: Callable[[int,
         Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted.
         SimulationFailed: Newton's method finds no fixed point.
     """
-    source = opening.source()
-    row = only_row(source, opening.path)
-    model = source.model(row.document)
-    for notice in dict.fromkeys([*source.notices, *model.notices]):
+    opened = opening.open()
+    row = only_row(opened, opening.path)
+    model = opened.model(row.document)
+    for notice in dict.fromkeys([*opened.notices, *model.notices]):
         listener.say(notice)
     found = ReturnMap(model, *_pairs(model, str(opening.path)), mode)
     values = model.values()

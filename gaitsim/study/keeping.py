@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from gaitsim.optimization.draws import Draws
     from gaitsim.results.record import Record
     from gaitsim.simulation.outcome import Outcome
-    from gaitsim.study.source import Source
+    from gaitsim.study.opened import Opened
 
 
 class Keeping:
@@ -23,7 +23,7 @@ class Keeping:
     def __init__(
         self,
         root: Path | None,
-        source: Source,
+        opened: Opened,
         models: Sequence[Model],
         mode: str,
         draws: Draws | None = None,
@@ -31,7 +31,7 @@ class Keeping:
     ) -> None:
         self.error: GaitsimError | None = None
         self._more = more
-        self._root, self._source, self._models, self._mode, self._draws = root, source, models, mode, draws
+        self._root, self._opened, self._models, self._mode, self._draws = root, opened, models, mode, draws
         self._record: Record | None = None
 
     @property
@@ -50,7 +50,7 @@ class Keeping:
         """Keep the runs that come in a folder that has some. Errors: CannotSave, Locked."""
         self._root = folder.parent
         self._record = self._begun(self._root)
-        self._record.go_on(folder, rows, dict(self._source.manifest))
+        self._record.go_on(folder, rows, dict(self._opened.manifest))
 
     def _begun(self, root: Path) -> Record:
         from gaitsim.compiler.mjcf import assemble
@@ -58,7 +58,7 @@ class Keeping:
 
         model = self._models[0]
         xml = assemble(model, model.values()).xml
-        bundle, place = self._source.bundle(self._models), self._source.place
+        bundle, place = self._opened.bundle(self._models), self._opened.place
         return Record(root, bundle, model, xml, self._mode, place, self._draws, self._more)
 
     @contextmanager

@@ -22,10 +22,10 @@ from gaitsim.spec.inheritance import override, split_setting
 from gaitsim.spec.study import Span, span
 from gaitsim.study.keeping import Keeping
 from gaitsim.study.listening import Listener
+from gaitsim.study.opened import Opened
 from gaitsim.study.opening import Opening, only_row, started_from
-from gaitsim.study.source import Source
 from gaitsim.study.starts import Starts
-from gaitsim.text.document import Mapping as Document
+from gaitsim.text.document import MappingNode
 from gaitsim.text.quantity import BadQuantity, quantity_of
 from gaitsim.units import parse_unit, with_unit
 
@@ -146,8 +146,8 @@ class Hunt:
     them, run by run. before: runs that an earlier hunt, which did not come to its end, has made.
     """
 
-    source: Source
-    document: Document
+    opened: Opened
+    document: MappingNode
     settings: Mapping[str, str]
     limits: Sequence[Limit]
     until: Until
@@ -210,7 +210,7 @@ class Hunt:
         return next((outcome for each, outcome in self.before if each == settings), None)
 
     def _model(self, limit: Limit, share: float) -> Model:
-        return self.source.model(override(self.document, limit.address, limit.at(share), "--vary"))
+        return self.opened.model(override(self.document, limit.address, limit.at(share), "--vary"))
 
     def _check_begun(self) -> None:
         """Errors: SimulationFailed that names every range without a first value that holds."""
@@ -242,15 +242,15 @@ def hunted(
     """
     scan.check()
     limits = [Limit(*span(text), Bracket(scan.points, scan.tolerance)) for text in vary]
-    source = opening.source()
+    opened = opening.open()
     if origin is not None:
         if opening.names_result:
             rule = f"{opening.path} is a result, which has its own values; name a spec, or drop --from"
             raise Usage(f"--from {origin}: {rule}.")
-        source, notices = started_from(replace(source, notices=()), opening, origin)
-        source = replace(source, notices=tuple(notices))
+        opened, notices = started_from(replace(opened, notices=()), opening, origin)
+        opened = replace(opened, notices=tuple(notices))
     asked = {"vary": list(vary), "until": until, "points": scan.points, "tolerance": scan.tolerance}
-    return _hunt(source, opening, limits, asked, mode, root, listener)
+    return _hunt(opened, opening, limits, asked, mode, root, listener)
 
 
 def resumed(opening: Opening, listener: Listener) -> Hunt:
@@ -263,16 +263,16 @@ def resumed(opening: Opening, listener: Listener) -> Hunt:
         raise Usage(f"--resume: {rule}, such as results/2026-11-22-walking-3f9c.")
     if opening.settings or opening.folders or opening.candidate is not None:
         raise Usage(f"--resume: {opening.path} goes on as it was begun; leave out --set, --library and --candidate.")
-    source = opening.source()
-    asked, limits = _recorded(opening.path, source.manifest)
-    changed = changed_versions(dict(source.manifest))
+    opened = opening.open()
+    asked, limits = _recorded(opening.path, opened.manifest)
+    changed = changed_versions(dict(opened.manifest))
     if changed:
         rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
         raise BadResult(f"{opening.path}: {rule}; install those, or begin anew.")
     rows = read_rows(opening.path, begun=True)
-    mode: Mode = "normal" if source.manifest["mode"] == "normal" else "rapid"
-    hunt = _hunt(source, opening, limits, asked, mode, None, listener)
-    step = source.model(hunt.document).simulate.step
+    mode: Mode = "normal" if opened.manifest["mode"] == "normal" else "rapid"
+    hunt = _hunt(opened, opening, limits, asked, mode, None, listener)
+    step = opened.model(hunt.document).simulate.step
     hunt.before = [({**row["settings"]}, outcome_of(row, step)) for row in rows]
     hunt.keeping.go_on(opening.path, rows)
     listener.say(f"resuming {opening.path}: {len(rows)} runs are in it")
@@ -305,7 +305,7 @@ class _Asked(BaseModel):
 
 
 def _hunt(
-    source: Source,
+    opened: Opened,
     opening: Opening,
     limits: list[Limit],
     asked: dict[str, Any],
@@ -314,10 +314,10 @@ def _hunt(
     listener: Listener,
 ) -> Hunt:
     """The hunt for limits of what was opened; what is unusual is said."""
-    row = only_row(source, opening.path)
-    model = source.model(row.document)
-    for notice in dict.fromkeys([*source.notices, *model.notices]):
+    row = only_row(opened, opening.path)
+    model = opened.model(row.document)
+    for notice in dict.fromkeys([*opened.notices, *model.notices]):
         listener.say(notice)
     until = until_of(asked["until"], model)
-    keeping = Keeping(root, source, [model], mode, more={"limit": asked})
-    return Hunt(source, row.document, row.settings, limits, until, mode, Starts(source), keeping)
+    keeping = Keeping(root, opened, [model], mode, more={"limit": asked})
+    return Hunt(opened, row.document, row.settings, limits, until, mode, Starts(opened), keeping)

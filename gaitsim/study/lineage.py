@@ -88,8 +88,8 @@ def _commits(path: Path, library: Library) -> Iterator[_Commit]:
 
     Each has the path that the component itself had then.
     """
-    source = path.read_text(encoding="utf-8")
-    shared = library.shared(path.parent.name, source) if path.suffix == ".py" else []
+    text = path.read_text(encoding="utf-8")
+    shared = library.shared(path.parent.name, text) if path.suffix == ".py" else []
     own = _log(path, "--follow")
     here = own[0].path if own else ""
     others = [replace(each, path=here) for file in shared for each in _log(file.path)]
@@ -114,13 +114,13 @@ def _at(commit: _Commit, folder: Path, library: Library) -> str:
     text = _git(folder, "cat-file", "blob", f"{commit.hash}:{commit.path}")
     if not text:
         return ""
-    source, home = as_lines(text.removeprefix("\ufeff")), commit.path.rpartition("/")[0]
-    now = {file.name: file for file in library.shared(folder.name, source)} if commit.path.endswith(".py") else {}
+    text, home = as_lines(text.removeprefix("\ufeff")), commit.path.rpartition("/")[0]
+    now = {file.name: file for file in library.shared(folder.name, text)} if commit.path.endswith(".py") else {}
     shared = []
-    for name in imported_names(source) if commit.path.endswith(".py") else ():
+    for name in imported_names(text) if commit.path.endswith(".py") else ():
         then = _git(folder, "cat-file", "blob", f"{commit.hash}:{home}/{name}.py")
         shared += [Shared(name, folder, name, as_lines(then))] if then else [now[name]] if name in now else []
-    return digest_of(whole(source, shared))[:SHORT]
+    return digest_of(whole(text, shared))[:SHORT]
 
 
 def _git(folder: Path, *words: str) -> str:

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from gaitsim.components.find import Library
     from gaitsim.spec.study import Variant
-    from gaitsim.study.source import Source
-    from gaitsim.text.document import Mapping
+    from gaitsim.study.opened import Opened
+    from gaitsim.text.document import MappingNode
 
 
 @dataclass(frozen=True)
@@ -40,17 +40,17 @@ class Opening:
 
         return is_result(self.path)
 
-    def source(self) -> Source:
+    def open(self) -> Opened:
         """What the path names, with its components and starts.
 
         Raises:
             InvalidSpec, BadResult, Untrusted, Usage.
         """
         from gaitsim.errors import Usage
-        from gaitsim.study.source import source_of_result
+        from gaitsim.study.opened import open_result
 
         if self.names_result:
-            return source_of_result(self.path, self.settings, self.trusted, self.candidate)
+            return open_result(self.path, self.settings, self.trusted, self.candidate)
         if self.candidate is not None:
             raise Usage(f"--candidate {self.candidate}: {self.path} is a spec; candidates belong to results.")
         return _tuned(self) if self.tuned else _as_written(self)
@@ -59,7 +59,7 @@ class Opening:
         """The components that the spec can use. Errors: Usage."""
         return open_library(self.path, self.folders)
 
-    def document(self) -> Mapping:
+    def document(self) -> MappingNode:
         """The spec with its settings. Errors: InvalidSpec, Usage."""
         from gaitsim.spec.inheritance import split_setting
         from gaitsim.spec.resolve import read_spec
@@ -87,14 +87,14 @@ def open_library(spec: Path | None, folders: Sequence[Path]) -> Library:
     return Library(library_folders(spec, folders))
 
 
-def _as_written(opening: Opening) -> Source:
+def _as_written(opening: Opening) -> Opened:
     """A spec that starts where it says."""
-    from gaitsim.study.source import Source
+    from gaitsim.study.opened import Opened
 
-    return Source(opening.document(), opening.library(), opening.path.stem, {}, place=opening.path.parent)
+    return Opened(opening.document(), opening.library(), opening.path.stem, {}, place=opening.path.parent)
 
 
-def _tuned(opening: Opening) -> Source:
+def _tuned(opening: Opening) -> Opened:
     """A spec, started at its tuned values if there are some.
 
     A variant without its own starts at those of the nearest parent that has some, if it tunes the same numbers,
@@ -102,18 +102,18 @@ def _tuned(opening: Opening) -> Source:
     """
     from gaitsim.results.tuned import read_tuned, tuned_path
 
-    source, spec = _as_written(opening), opening.path
+    opened, spec = _as_written(opening), opening.path
     owner = _owner(spec)
-    if owner is None or not (owner == spec or _tunes_what(source, Opening(owner, folders=opening.folders))):
-        return source
+    if owner is None or not (owner == spec or _tunes_what(opened, Opening(owner, folders=opening.folders))):
+        return opened
     path = tuned_path(owner)
-    free = source.model().free
+    free = opened.model().free
     tuned_there = read_tuned(path, free)
     notice = f"tuned values from {path} ({tuned_there.result}); --start ignores them"
     unused = [address for address in tuned_there.values if address not in {each.address for each in free}]
     if unused and owner == spec:
         notice += f"; not tuned here, so without effect: {', '.join(unused)}"
-    return replace(source, starts=tuned_there.values, origin=str(path), notices=(notice,))
+    return replace(opened, starts=tuned_there.values, origin=str(path), notices=(notice,))
 
 
 def _owner(spec: Path) -> Path | None:
@@ -124,13 +124,13 @@ def _owner(spec: Path) -> Path | None:
     return next((path for path in (spec, *parents(spec)) if tuned_path(path).is_file()), None)
 
 
-def _tunes_what(source: Source, parent: Opening) -> bool:
+def _tunes_what(opened: Opened, parent: Opening) -> bool:
     """Whether all that a source tunes is tuned alike in the spec that it extends."""
     alike = {(f.address, f.low, f.high, f.start) for f in _as_written(parent).model().free}
-    return alike >= {(f.address, f.low, f.high, f.start) for f in source.model().free}
+    return alike >= {(f.address, f.low, f.high, f.start) for f in opened.model().free}
 
 
-def started_from(source: Source, opening: Opening, origin: str | None) -> tuple[Source, list[str]]:
+def started_from(opened: Opened, opening: Opening, origin: str | None) -> tuple[Opened, list[str]]:
     """The source of a spec with starts from where `--from` says, and what matched.
 
     origin: tuned (values beside the spec or its nearest parent with some), middle, or a result folder; None changes
@@ -141,8 +141,8 @@ def started_from(source: Source, opening: Opening, origin: str | None) -> tuple[
     from gaitsim.results.tuned import read_tuned, tuned_path
 
     if origin is None:
-        return source, []
-    free = source.model().free
+        return opened, []
+    free = opened.model().free
     if origin == "middle":
         where, values = "the middle of all bounds", {f.address: 0.5 * (f.low + f.high) for f in free}
     elif origin == "tuned":
@@ -154,7 +154,7 @@ def started_from(source: Source, opening: Opening, origin: str | None) -> tuple[
         where, result = origin, Opening(result_named(Path(origin), opening.results), trusted=opening.trusted)
         if not result.names_result:
             raise Usage(f"--from {where}: this is no result; write tuned, middle, or a folder of gaitsim results list.")
-        values = dict(result.source().starts)
+        values = dict(result.open().starts)
     addresses = [f.address for f in free]
     matched = [a for a in addresses if a in values]
     if not matched:
@@ -162,15 +162,15 @@ def started_from(source: Source, opening: Opening, origin: str | None) -> tuple[
         raise Usage(f"--from {origin}: none of its values ({known}) is tuned here.")
     rest = [a for a in addresses if a not in values]
     notice = f"start from {where}: {', '.join(matched)}" + (f"; not found there: {', '.join(rest)}" if rest else "")
-    return replace(source, starts={a: values[a] for a in matched}, origin=where), [notice]
+    return replace(opened, starts={a: values[a] for a in matched}, origin=where), [notice]
 
 
-def only_row(source: Source, path: Path) -> Variant:
+def only_row(opened: Opened, path: Path) -> Variant:
     """The one run of a source that is no study. Errors: Usage."""
     from gaitsim.errors import Usage
     from gaitsim.spec.study import variants
 
-    rows = variants(source.document, [])
+    rows = variants(opened.document, [])
     if len(rows) > 1:
         raise Usage(f"{path} is a study of {len(rows)} runs; take one with --candidate, or drop it: --set study=null.")
     return rows[0]

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import os
 import re
-from collections.abc import Mapping as Map
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
@@ -29,7 +29,7 @@ from gaitsim.study.template import feedback_of
 from gaitsim.text.document import dump, parse, plain, read
 
 if TYPE_CHECKING:
-    from gaitsim.study.source import Source
+    from gaitsim.study.opened import Opened
 
 _PROJECTS = "projects"
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]{0,63}")
@@ -117,7 +117,7 @@ class Begun:
 
     project: Project
     files: tuple[Path, ...]
-    copied: Map[str, str]
+    copied: Mapping[str, str]
 
 
 def new_project(name: str, origin: str, place: Path, results: Path | None = None, trusted: bool = False) -> Begun:
@@ -136,25 +136,25 @@ def new_project(name: str, origin: str, place: Path, results: Path | None = None
     lab = lab_of(place) or place
     folder = _free_folder(name, lab)
     opening = _opening(origin, results, trusted)
-    source = opening.source()
-    model = source.model()
-    bundle = _bundle(opening, source)
-    called = source.name if source.name.lower() != name.lower() else f"{source.name}_origin"
+    opened = opening.open()
+    model = opened.model()
+    bundle = _bundle(opening, opened)
+    called = opened.name if opened.name.lower() != name.lower() else f"{opened.name}_origin"
     copied = _lacking(bundle, [lab / "library", shipped_folder()])
-    project = Project(folder, name, author(), date.today().isoformat(), _where(opening, source, origin))
+    project = Project(folder, name, author(), date.today().isoformat(), _where(opening, opened, origin))
     texts = {
         f"{called}.yaml": _spec_text(opening, bundle),
-        f"{name}.yaml": _VARIANT.format(name=name, origin=called, part=feedback_of(source.document) or "feedback"),
+        f"{name}.yaml": _VARIANT.format(name=name, origin=called, part=feedback_of(opened.document) or "feedback"),
         PROJECT: _marker(project, bundle),
         "README.md": _readme(project, called, copied, opening),
         ".gitignore": _IGNORED,
         **{path: bundle.files[path] for path in copied},
     }
     texts |= {} if copied else {f"{COMPONENTS}/.gitkeep": ""}
-    values = {free.address: free.start for free in model.free if free.address in source.starts}
+    values = {free.address: free.start for free in model.free if free.address in opened.starts}
     if values:
         tuned = tuned_text(
-            project.origin, source.recorded.get("score"), values, {f.address: f.unit for f in model.free}
+            project.origin, opened.recorded.get("score"), values, {f.address: f.unit for f in model.free}
         )
         texts |= {tuned_path(Path(f"{stem}.yaml")).name: tuned for stem in (called, name)}
     marker = {} if (lab / LAB).is_file() else {lab / LAB: _LAB_TEXT}
@@ -191,19 +191,19 @@ def _opening(origin: str, results: Path | None, trusted: bool) -> Opening:
     raise Usage(f"--from {origin}: {rule}. {did_you_mean(origin, shipped)}")
 
 
-def _where(opening: Opening, source: Source, origin: str) -> str:
+def _where(opening: Opening, opened: Opened, origin: str) -> str:
     """What a project is begun from: the name of a result holds wherever its folder lies."""
-    if source.manifest:
+    if opened.manifest:
         return f"{opening.path.name}"
     return origin
 
 
-def _bundle(opening: Opening, source: Source) -> Bundle:
+def _bundle(opening: Opening, opened: Opened) -> Bundle:
     """All that a result or a spec is made of, with every run of its study and every episode of its search."""
     if opening.names_result:
         return read_result(opening.path)[1]
-    runs = [source.model(row.document) for row in variants(source.document, [])]
-    return source.bundle([*runs, *episode_models(source.document, source.library, source.name)])
+    runs = [opened.model(row.document) for row in variants(opened.document, [])]
+    return opened.bundle([*runs, *episode_models(opened.document, opened.library, opened.name)])
 
 
 def _spec_text(opening: Opening, bundle: Bundle) -> str:
@@ -243,7 +243,7 @@ def _marker(project: Project, bundle: Bundle) -> str:
     )
 
 
-def _readme(project: Project, origin: str, copied: Map[str, str], opening: Opening) -> str:
+def _readme(project: Project, origin: str, copied: Mapping[str, str], opening: Opening) -> str:
     own = [path for path in copied if is_component(Path(path))]
     said = f"Copied from there, because no library serves them as they were: {', '.join(f'`{p}`' for p in own)}."
     return _README.format(

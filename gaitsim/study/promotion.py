@@ -8,7 +8,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping as Map
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -37,13 +37,13 @@ _LINES = 25  # of a test that fails
 class Request:
     """What is to be promoted, and how.
 
-    source: the folder of kinds that it is in. target: the library that it goes to. test: its file. replace: put it in
+    origin: the folder of kinds that it is in. target: the library that it goes to. test: its file. replace: put it in
     the place of one that is there, if no user of that changes. force: also if some do. scope: where users are
     looked for.
     """
 
     reference: str
-    source: Path
+    origin: Path
     target: Path
     test: Path
     replace: bool
@@ -84,19 +84,19 @@ def asked(
     Errors: Usage.
     """
     here = origin or project_of(Path.cwd()) or Path()
-    source = here / "components" if (here / "components").is_dir() else here
+    folder = here / "components" if (here / "components").is_dir() else here
     kind, _, name = reference.partition("/")
-    if not any((source / kind / f"{name}{suffix}").is_file() for suffix in (".py", ".yaml")):
-        found = Library((source,)) if source.is_dir() else Library(())
+    if not any((folder / kind / f"{name}{suffix}").is_file() for suffix in (".py", ".yaml")):
+        found = Library((folder,)) if folder.is_dir() else Library(())
         hint = f"Here are: {', '.join(found.references())}." if found.references() else "Name its project with --from."
-        raise Usage(f"{reference}: {shown(source)} has no such component. {hint}")
-    lab = lab_of(source)
+        raise Usage(f"{reference}: {shown(folder)} has no such component. {hint}")
+    lab = lab_of(folder)
     if target is None and lab is None:
         raise Usage("there is no lab here, whose library it could go to; name a library: --to FOLDER.")
     to = target or (lab / "library" if lab else Path())
-    if to.resolve() == source.resolve():
+    if to.resolve() == folder.resolve():
         raise Usage(f"--to {to}: the component is there already; name another library.")
-    return Request(reference, source, to, test or source.parent / "tests" / f"test_{name}.py", replace, force, scope)
+    return Request(reference, folder, to, test or folder.parent / "tests" / f"test_{name}.py", replace, force, scope)
 
 
 def promoted(request: Request, listener: Listener) -> Promoted:
@@ -129,12 +129,12 @@ def promoted(request: Request, listener: Listener) -> Promoted:
 
 def _reviewed(request: Request) -> ComponentFile:
     """The component, if a library may have it. Errors: InvalidComponent."""
-    library = Library((request.source, *_behind(request.target)))
+    library = Library((request.origin, *_behind(request.target)))
     faults = review(request.reference, library)
     if faults:
         raise InvalidComponent(faults)
     component = library.find(request.reference)
-    inside = [r for r, c in library.used().items() if c is not component and c.path.parents[1] == request.source]
+    inside = [r for r, c in library.used().items() if c is not component and c.path.parents[1] == request.origin]
     if inside:
         rule = f"it has inner parts of the project: {', '.join(inside)}; promote these first."
         raise InvalidComponent(Fault(rule, Mark(shown(component.path))))
@@ -189,21 +189,21 @@ def _files(request: Request, component: ComponentFile, test: str) -> dict[Path, 
     files = {target / kind / component.path.name: component.path.read_text(encoding="utf-8")}
     files[target.resolve().parent / "tests" / "library" / request.test.name] = test
     if Library(_behind(target)).contract(kind) is None:
-        files[target / kind / KIND] = (request.source / kind / KIND).read_text(encoding="utf-8")
-    for name in imported_names(component.source) if component.path.suffix == ".py" else ():
-        own = request.source / kind / f"{name}.py"
+        files[target / kind / KIND] = (request.origin / kind / KIND).read_text(encoding="utf-8")
+    for name in imported_names(component.text) if component.path.suffix == ".py" else ():
+        own = request.origin / kind / f"{name}.py"
         if own.is_file():
             files[target / kind / own.name] = own.read_text(encoding="utf-8")
     cited = {key for one in component.parameters.values() for key in keys_of(one.source)}
     lacking = cited - set(read_bibliography(_behind(target)))
     if lacking:
-        mine, there = read_bibliography((request.source,)), target / FILE
+        mine, there = read_bibliography((request.origin,)), target / FILE
         before = there.read_text(encoding="utf-8").rstrip() + "\n\n" if there.is_file() else ""
         files[there] = before + "\n\n".join(mine[key] for key in sorted(lacking)) + "\n"
     return files
 
 
-def _taken(request: Request, files: Map[Path, str]) -> bool:
+def _taken(request: Request, files: Mapping[Path, str]) -> bool:
     """Whether a component of this name is there already. Errors: Usage if it may not be replaced."""
     known = Library(_behind(request.target)).file(request.reference)
     for path, text in files.items():
@@ -217,7 +217,7 @@ def _taken(request: Request, files: Map[Path, str]) -> bool:
     return known is not None
 
 
-def _stage(stage: Path, request: Request, files: Map[Path, str]) -> None:
+def _stage(stage: Path, request: Request, files: Mapping[Path, str]) -> None:
     """A copy of the library with the new files, and its tests' folder beside it."""
     if request.target.is_dir():
         shutil.copytree(request.target, stage, ignore=shutil.ignore_patterns("__pycache__"))
@@ -256,7 +256,7 @@ def _users(request: Request, stage: Path, listener: Listener) -> tuple[Tested, .
     return tuple(tested(request.reference, scope, False, listener))
 
 
-def _write(request: Request, files: Map[Path, str]) -> None:
+def _write(request: Request, files: Mapping[Path, str]) -> None:
     """Write all files, or none. Errors: CannotSave."""
     before = {path: path.read_text(encoding="utf-8") if path.is_file() else None for path in files}
     done: list[Path] = []
@@ -275,7 +275,7 @@ def _write(request: Request, files: Map[Path, str]) -> None:
 
 def _removed(request: Request, component: ComponentFile) -> tuple[Path, ...]:
     """The files of the project that now lie in the library; they stay where its specs do not see that."""
-    seen = {folder.resolve() for folder in library_folders(request.source.parent / "spec.yaml")}
+    seen = {folder.resolve() for folder in library_folders(request.origin.parent / "spec.yaml")}
     if request.target.resolve() not in seen:
         return ()
     for path in (component.path, request.test):

@@ -8,18 +8,18 @@ from pathlib import Path
 from gaitsim.analysis.replays.replay import Replay, replayed
 from gaitsim.results.manifest import changed_versions
 from gaitsim.results.store import row_data
-from gaitsim.study.source import Source
+from gaitsim.study.opened import Opened
 from gaitsim.study.starts import Starts
 from gaitsim.study.verify import differences
 
 
-def replay_of(source: Source, path: Path, label: str = "", duration: float | None = None) -> Replay:
+def replay_of(opened: Opened, path: Path, label: str = "", duration: float | None = None) -> Replay:
     """Run a source, and note what its reader should know: other versions, a search that has not ended.
 
     Errors: InvalidSpec, InvalidComponent.
     """
-    model, starts = source.model(), Starts(source)
-    manifest = dict(source.manifest)
+    model, starts = opened.model(), Starts(opened)
+    manifest = dict(opened.manifest)
     made = replayed(
         model,
         path,
@@ -28,14 +28,14 @@ def replay_of(source: Source, path: Path, label: str = "", duration: float | Non
         duration=duration,
         prepared=starts.look_at,
     )
-    notices = [*source.notices, *model.notices, *starts.warnings]
+    notices = [*opened.notices, *model.notices, *starts.warnings]
     changed = changed_versions(manifest) if manifest else []
     if changed:
         notices.append(f"{path} was made with other versions ({', '.join(changed)})")
     if manifest and manifest["status"] != "complete":
         notices.append(f"{path} is not complete: its search is {manifest['status']}")
-    if source.recorded and duration is None:
-        found = differences(source.recorded, row_data({}, made.outcome))
+    if opened.recorded and duration is None:
+        found = differences(opened.recorded, row_data({}, made.outcome))
         if found:
             notices.append(f"the replay of {path} differs from its record: {'; '.join(found[:3])}")
     return replace(made, notices=tuple(notices))

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 from gaitsim.analysis.replays.replay import Replay, dataset
 from gaitsim.model import Model
 from gaitsim.results.manifest import BadResult, read_manifest, result_named
+from gaitsim.study.opened import Opened, open_result
 from gaitsim.study.replays import replay_of
-from gaitsim.study.source import Source, source_of_result
 
 if TYPE_CHECKING:
     import pandas
@@ -44,25 +44,25 @@ class Result:
         return read_manifest(self.folder)
 
     @cached_property
-    def source(self) -> Source:
+    def opened(self) -> Opened:
         """Spec, components and starts of the candidate. Errors: BadResult, Untrusted, Usage."""
-        return source_of_result(self.folder, (), self.trust, self.candidate)
+        return open_result(self.folder, (), self.trust, self.candidate)
 
     @cached_property
     def model(self) -> Model:
         """The resolved model, started at the candidate. Errors: as `source`, InvalidSpec."""
-        return self.source.model()
+        return self.opened.model()
 
     @property
     def metrics(self) -> dict[str, float]:
         """The candidate's metrics as they were recorded, in the units of `model.metrics`; nan for none."""
-        recorded = self.source.recorded.get("metrics", {})
+        recorded = self.opened.recorded.get("metrics", {})
         return {name: math.nan if value is None else float(value) for name, value in recorded.items()}
 
     @property
     def score(self) -> float:
         """The candidate's cost as it was recorded; nan for none."""
-        score = self.source.recorded.get("score")
+        score = self.opened.recorded.get("score")
         return math.nan if score is None else float(score)
 
     def parameters(self) -> pandas.DataFrame:
@@ -98,7 +98,7 @@ class Result:
 
         Errors: as `model`, InvalidComponent. A run that fails is a Replay up to its failure.
         """
-        return replay_of(self.source, self.folder, duration=duration)
+        return replay_of(self.opened, self.folder, duration=duration)
 
     def trajectory(self, duration: float | None = None) -> xarray.Dataset:
         """Every output and state of the candidate's run as labelled arrays over `time` in seconds.

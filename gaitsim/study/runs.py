@@ -25,8 +25,8 @@ if TYPE_CHECKING:
     from gaitsim.simulation.run import Mode
     from gaitsim.spec.study import Variant
     from gaitsim.study.listening import Listener
+    from gaitsim.study.opened import Opened
     from gaitsim.study.opening import Opening
-    from gaitsim.study.source import Source
 
 
 @dataclass(frozen=True)
@@ -188,18 +188,18 @@ def prepared(
     vary: values to run, each as ADDRESS=VALUES.
     Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted, CannotSave.
     """
-    source = opening.source()
-    rows = variants(source.document, vary)
+    opened = opening.open()
+    rows = variants(opened.document, vary)
     if places.out is not None and len(rows) > 1:
         raise Usage("--out writes one trajectory; drop --vary or study:, or --set one value.")
     places.check()
-    tried = [_model(source, row) for row in rows]
+    tried = [_model(opened, row) for row in rows]
     models = [each for each in tried if isinstance(each, Model)]
     faults = [each for each in tried if not isinstance(each, Model)]
     if faults and (draws or not models):
         raise faults[0]
     spacing = places.spacing(models)
-    notices = list(dict.fromkeys([*source.notices, *(notice for model in models for notice in model.notices)]))
+    notices = list(dict.fromkeys([*opened.notices, *(notice for model in models for notice in model.notices)]))
     for notice in notices:
         listener.say(notice)
     simulated: Sequence[Model | Invalid] = tried
@@ -209,13 +209,13 @@ def prepared(
         notices += unmoved
         for notice in unmoved:
             listener.say(notice)
-    keeping = Keeping(places.results, source, models, mode, draws)
-    return Runs(rows, models, simulated, mode, draws, places.out, spacing, Starts(source), keeping, notices)
+    keeping = Keeping(places.results, opened, models, mode, draws)
+    return Runs(rows, models, simulated, mode, draws, places.out, spacing, Starts(opened), keeping, notices)
 
 
-def _model(source: Source, row: Variant) -> Model | Invalid:
+def _model(opened: Opened, row: Variant) -> Model | Invalid:
     """The model of a row, or why there is none."""
     try:
-        return source.model(row.document)
+        return opened.model(row.document)
     except (InvalidSpec, InvalidComponent) as error:
         return error

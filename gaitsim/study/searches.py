@@ -26,8 +26,8 @@ from gaitsim.results.trust import check_trust
 from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.schema import SearchSection, optimize_section
+from gaitsim.study.opened import Opened
 from gaitsim.study.opening import Opening, started_from
-from gaitsim.study.source import Source
 from gaitsim.study.starts import Starts
 from gaitsim.study.tuning import Tuning
 from gaitsim.whole import PARTIAL
@@ -74,9 +74,9 @@ def begun(request: Request, root: Path) -> Tuning:
     if request.opening.names_result:
         move = f"{command('optimize', path, '--resume')}, or SPEC --from {quote(str(path))}"
         raise Usage(f"{path} is a result; to continue or to start from it: {move}")
-    source = request.opening.source()
-    source, notices = started_from(source, request.opening, request.origin)
-    model = source.model()
+    opened = request.opening.open()
+    opened, notices = started_from(opened, request.opening, request.origin)
+    model = opened.model()
     if not model.free:
         rule = "nothing is tuned in this spec"
         move = "give a value bounds, such as gain: {value: 1, tune: [0, 5]}"
@@ -84,19 +84,19 @@ def begun(request: Request, root: Path) -> Tuning:
     if model.objective is None:
         move = "add one, such as objective: {use: objective/maximize, value: {from: a metric}}"
         raise InvalidSpec(Fault(f"this spec has no objective; {move}.", Mark(str(request.opening.path))))
-    search = _search_of(source, request)
+    search = _search_of(opened, request)
     problem = problem_of(model, search["spread_factor"])
     algorithm = ALGORITHMS[search["algorithm"]].make(problem, search["seed"], search["population"])
     search["population"] = algorithm.population
     mode: Mode = "normal" if request.mode == "normal" else "rapid"
-    each = episode_models(source.document, source.library, source.name)
-    simulator, starts = Simulator(model, mode), Starts(source)
-    for one in (simulator, *(Simulator(episode.started_at(source.starts), mode) for episode in each)):
+    each = episode_models(opened.document, opened.library, opened.name)
+    simulator, starts = Simulator(model, mode), Starts(opened)
+    for one in (simulator, *(Simulator(episode.started_at(opened.starts), mode) for episode in each)):
         starts.look_at(one)
-    bundle = source.bundle([model, *each])
+    bundle = opened.bundle([model, *each])
     told = {"spec": str(request.opening.path), "search": search, "smoke": request.smoke, "notices": notices}
-    manifest = new_manifest("optimize", bundle, mode, source.place, **told)
-    more = {"evaluations.jsonl": "", **changes_file(source.place)}
+    manifest = new_manifest("optimize", bundle, mode, opened.place, **told)
+    more = {"evaluations.jsonl": "", **changes_file(opened.place)}
     folder = create_result(root, bundle, model, simulator.xml, manifest, more, _MOVE)
     bundle = replace(bundle, folder=folder)
     return Tuning(folder, manifest, bundle, model, [*model.notices, *starts.warnings, *notices])
@@ -179,9 +179,9 @@ def _check_least(numbers: Mapping[str, int | None]) -> None:
             raise Usage(f"--{name} {number}: this is at least {_LEAST[name]}.")
 
 
-def _search_of(source: Source, request: Request) -> dict[str, Any]:
+def _search_of(opened: Opened, request: Request) -> dict[str, Any]:
     """Algorithm, population, generations and seed: the command line over the spec over defaults."""
-    section = optimize_section(source.document)
+    section = optimize_section(opened.document)
     asked = {n: getattr(request, n) for n in ("algorithm", "population", "generations", "seed")}
     smoke = _SMOKE if request.smoke else {}
     said = section.model_dump(include={*SearchSection.model_fields})
@@ -216,9 +216,9 @@ def _newest(spec: Path, root: Path) -> Path:
 
 def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
     """A search goes on only with the spec it began with."""
-    source = request.opening.source()
-    models = [source.model(), *episode_models(source.document, source.library, source.name)]
-    now = source.bundle(models).files
+    opened = request.opening.open()
+    models = [opened.model(), *episode_models(opened.document, opened.library, opened.name)]
+    now = opened.bundle(models).files
     before = {path: text for path, text in bundle.files.items() if path != START}
     changed = sorted(path for path in {*now, *before} if now.get(path) != before.get(path))
     if changed:

@@ -55,17 +55,17 @@ def checked(opening: Opening, convergence: bool, listener: Listener) -> Soundnes
 
     Errors: InvalidSpec with all faults, InvalidComponent, BadResult, Untrusted, Usage.
     """
-    source = opening.source()
-    rows = variants(source.document, [])
-    models = [source.model(row.document) for row in rows]
-    starts = Starts(source)
-    for each in (*models, *episode_models(source.document, source.library, source.name)):
+    opened = opening.open()
+    rows = variants(opened.document, [])
+    models = [opened.model(row.document) for row in rows]
+    starts = Starts(opened)
+    for each in (*models, *episode_models(opened.document, opened.library, opened.name)):
         starts.look_at(Simulator(each))
-    notices = [*source.notices, *models[0].notices]
+    notices = [*opened.notices, *models[0].notices]
     for notice in notices:
         listener.say(notice)
     arms = moment_arms(models[0])
-    doubts = [*starts.unusual, *warnings(arms), *_unknown_sources(models[0], source.library)]
+    doubts = [*starts.unusual, *warnings(arms), *_unknown_sources(models[0], opened.library)]
     for doubt in doubts:
         listener.say(f"warning: {doubt}")
     with listener.waiting("simulating"):

@@ -9,15 +9,15 @@ from gaitsim.errors import InvalidSpec
 if TYPE_CHECKING:
     from gaitsim.errors import Fault
     from gaitsim.simulation.run import Simulator
-    from gaitsim.study.source import Source
+    from gaitsim.study.opened import Opened
 
 
 class Starts:
     """Looks at simulators once they are prepared, and keeps what is unusual, each thing once."""
 
-    def __init__(self, source: Source) -> None:
+    def __init__(self, opened: Opened) -> None:
         # A result ran as it is: it is shown, whatever one thinks of its start.
-        self._refuses = not source.manifest
+        self._refuses = not opened.manifest
         self.unusual: list[Fault] = []
 
     def look_at(self, simulator: Simulator) -> None:

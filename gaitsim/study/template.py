@@ -9,7 +9,7 @@ from gaitsim.components.skeleton import new_component, test_of
 from gaitsim.errors import Usage, did_you_mean
 from gaitsim.results.tuned import tuned_path
 from gaitsim.spec.inheritance import parents, with_parents
-from gaitsim.text.document import Mapping
+from gaitsim.text.document import MappingNode
 
 _README = """\
 # {title}
@@ -86,11 +86,11 @@ def _shipped_files(spec: Path) -> dict[str, str]:
     return {file.name: file.read_text(encoding="utf-8") for file in files}
 
 
-def feedback_of(document: Mapping) -> str | None:
+def feedback_of(document: MappingNode) -> str | None:
     """The part of a spec that is a muscle's feedback."""
     parts = document.entries.get("parts")
-    for name, node in (parts.entries if isinstance(parts, Mapping) else {}).items():
-        use = node.entries.get("use") if isinstance(node, Mapping) else None
+    for name, node in (parts.entries if isinstance(parts, MappingNode) else {}).items():
+        use = node.entries.get("use") if isinstance(node, MappingNode) else None
         if getattr(use, "value", "") == "controller/muscle_feedback":
             return name
     return None

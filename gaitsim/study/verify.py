@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from collections.abc import Mapping as Map
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -33,7 +32,7 @@ class Check:
     largest: float
 
 
-def verified(bundle: Bundle, manifest: Map[str, Any], everything: bool) -> Iterator[Check]:
+def verified(bundle: Bundle, manifest: Mapping[str, Any], everything: bool) -> Iterator[Check]:
     """Run candidates of a result again: the best, the start and some between; or all of them.
 
     Errors: BadResult, DamagedJournal, InvalidSpec.
@@ -68,7 +67,7 @@ def _runs(bundle: Bundle, mode: Mode) -> Iterator[Check]:
         yield _check(", ".join(f"{a}={v}" for a, v in row["settings"].items()) or f"run {i}", row, now)
 
 
-def _check(name: str, before: Map[str, Any], now: Map[str, Any]) -> Check:
+def _check(name: str, before: Mapping[str, Any], now: Mapping[str, Any]) -> Check:
     pairs = list(_pairs(before, now))
     off = [_relative(old, new) for _, old, new in pairs if old != new]
     return Check(name, differences(before, now), max(off, default=0.0))
@@ -81,12 +80,12 @@ def _relative(old: object, new: object) -> float:
     return abs(new - old) / max(abs(old), abs(new))
 
 
-def differences(before: Map[str, Any], now: Map[str, Any]) -> tuple[str, ...]:
+def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> tuple[str, ...]:
     """What two runs, as `row_data` gives them, do not share bit for bit, in words."""
     return tuple(f"{what}: {old!r} -> {new!r}" for what, old, new in _pairs(before, now) if old != new)
 
 
-def _pairs(before: Map[str, Any], now: Map[str, Any]) -> Iterator[tuple[str, Any, Any]]:
+def _pairs(before: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[tuple[str, Any, Any]]:
     """What is compared of two runs: its name, and what each has."""
     for name in COMPARED:
         if name == "metrics":

@@ -31,7 +31,7 @@ _EMPTY = 'there is nothing in it; write "parts:" and below it the parts.'
 
 
 @dataclass(frozen=True)
-class Scalar:
+class ScalarNode:
     """One value and its place."""
 
     value: bool | int | float | str | None
@@ -39,7 +39,7 @@ class Scalar:
 
 
 @dataclass(frozen=True)
-class Sequence:
+class SequenceNode:
     """A list of nodes and its place."""
 
     items: tuple[Node, ...]
@@ -47,7 +47,7 @@ class Sequence:
 
 
 @dataclass(frozen=True)
-class Mapping:
+class MappingNode:
     """Nodes by key, in the order of the text, with the place of each key.
 
     `swapped` are the words that an entry kept from a component it no longer uses.
@@ -59,10 +59,10 @@ class Mapping:
     swapped: frozenset[str] = frozenset()
 
 
-Node = Union[Scalar, Sequence, Mapping]  # noqa: UP007 (the names below it must exist at run time)
+Node = Union[ScalarNode, SequenceNode, MappingNode]  # noqa: UP007 (the names below it must exist at run time)
 
 
-def read(path: Path, shown: str | None = None) -> Mapping:
+def read(path: Path, shown: str | None = None) -> MappingNode:
     """The document in a file; `shown` is how errors name that file."""
     name = str(path) if shown is None else shown
     return parse(text_of(path, name), name)
@@ -97,14 +97,14 @@ def text_of(path: Path, name: str, what: str = "spec") -> str:
     return _decoded(data, name)
 
 
-def parse(text: str, file: str) -> Mapping:
+def parse(text: str, file: str) -> MappingNode:
     """The document that a text holds; `file` is how errors name the text."""
     reader = _Reader(text, file)
     top = reader.document()
     if top is None:
         raise _refused(file, _EMPTY)
-    if not isinstance(top, Mapping):
-        kind = "a list" if isinstance(top, Sequence) else "a bare value"
+    if not isinstance(top, MappingNode):
+        kind = "a list" if isinstance(top, SequenceNode) else "a bare value"
         raise InvalidSpec(Fault(f'this is {kind}; a spec is keys with values, such as "parts: ...".', top.mark))
     return top
 
@@ -119,9 +119,9 @@ def parse_value(text: str, file: str) -> Node:
 
 def plain(node: Node) -> Any:
     """The node as plain Python data."""
-    if isinstance(node, Mapping):
+    if isinstance(node, MappingNode):
         return {key: plain(value) for key, value in node.entries.items()}
-    if isinstance(node, Sequence):
+    if isinstance(node, SequenceNode):
         return [plain(item) for item in node.items]
     return node.value
 
@@ -208,7 +208,7 @@ class _Reader:
             self.fault(f"{short} is a tag, which a spec may not have; remove it.", event)
         if isinstance(event, yaml.SequenceStartEvent):
             items = self.until(yaml.SequenceEndEvent)
-            return Sequence(tuple(self.node(item, depth + 1) for item in items), mark)
+            return SequenceNode(tuple(self.node(item, depth + 1) for item in items), mark)
         if isinstance(event, yaml.MappingStartEvent):
             return self.mapping(mark, depth)
         if isinstance(event, yaml.ScalarEvent):
@@ -216,10 +216,10 @@ class _Reader:
             value = written if event.style else scalar(written)
             if value in (math.inf, -math.inf):
                 self.fault("this number is too large; write one below 1.8e308.", event)
-            return Scalar(value, mark)
-        return Scalar(None, mark)
+            return ScalarNode(value, mark)
+        return ScalarNode(None, mark)
 
-    def mapping(self, mark: Mark, depth: int) -> Mapping:
+    def mapping(self, mark: Mark, depth: int) -> MappingNode:
         entries: dict[str, Node] = {}
         keys: dict[str, Mark] = {}
         for event in self.until(yaml.MappingEndEvent):
@@ -231,7 +231,7 @@ class _Reader:
                 if isinstance(value_event, yaml.AliasEvent):
                     continue  # one mistake, said once
             value = self.node(value_event, depth + 1)
-            word = key.value if isinstance(key, Scalar) else None
+            word = key.value if isinstance(key, ScalarNode) else None
             if comma := self.decimal_comma(event, value, entries):
                 self.fault(comma, event)
             elif not isinstance(word, str):
@@ -244,12 +244,12 @@ class _Reader:
                 self.fault(f"{rule}; remove or rename one of the two.", event)
             else:
                 entries[word], keys[word] = value, key.mark
-        return Mapping(entries, keys, mark)
+        return MappingNode(entries, keys, mark)
 
     def decimal_comma(self, key: yaml.Event, value: Node, before: dict[str, Node]) -> str:
         """What is wrong if a key is the rest of a number with a comma, as in {mass: 2,5 kg}; empty if it is none."""
         number, rest, begin = next(reversed(before.values()), None), getattr(key, "value", ""), key.start_mark
-        if begin is None or not isinstance(number, Scalar) or plain(value) is not None or not rest[:1].isdigit():
+        if begin is None or not isinstance(number, ScalarNode) or plain(value) is not None or not rest[:1].isdigit():
             return ""
         if not isinstance(number.value, int) or self.lines[begin.line][: begin.column][-1:] != ",":
             return ""

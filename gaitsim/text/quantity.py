@@ -7,7 +7,7 @@ import math
 import re
 
 from gaitsim.errors import Faults, nearest
-from gaitsim.text.document import Mapping, Node, Scalar, Sequence
+from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode
 from gaitsim.units import Quantity, Unit, UnknownUnit, known_units, parse_quantity, parse_unit
 
 _EXAMPLES = {
@@ -118,11 +118,11 @@ def _is_unit(text: str) -> bool:
     return True
 
 
-def comma_within(node: Sequence) -> str:
+def comma_within(node: SequenceNode) -> str:
     """What to write for a number whose decimal comma made two items of a list, such as [1,5 kg]; else empty."""
     items = node.items
     for first, second in itertools.pairwise(items):
-        if isinstance(first, Scalar) and isinstance(second, Scalar) and type(first.value) is int:
+        if isinstance(first, ScalarNode) and isinstance(second, ScalarNode) and type(first.value) is int:
             ending = str(second.value)
             alone = len(items) == 2 and type(second.value) is int
             if ending[:1].isdigit() and (alone or _has_unit(ending)) and _is_quantity(f"{first.value}.{ending}"):
@@ -141,8 +141,8 @@ def _has_unit(text: str) -> bool:
 
 def number(node: Node, unit: str, faults: Faults, address: str) -> float | None:
     """The SI value of a scalar node where `unit` is declared; None after a fault."""
-    if not isinstance(node, Scalar) or isinstance(node.value, bool) or node.value is None:
-        hint = comma_within(node) if isinstance(node, Sequence) else ""
+    if not isinstance(node, ScalarNode) or isinstance(node.value, bool) or node.value is None:
+        hint = comma_within(node) if isinstance(node, SequenceNode) else ""
         faults.add(f"{said(node)} is no number; {needed(unit)}.{hint}", node.mark, address)
         return None
     try:
@@ -154,8 +154,8 @@ def number(node: Node, unit: str, faults: Faults, address: str) -> float | None:
 
 def written_unit(node: Node | None) -> Unit | None:
     """The unit that a scalar, or the first one of a list, is written in; None if it is no quantity."""
-    first = node.items[0] if isinstance(node, Sequence) and node.items else node
-    if not isinstance(first, Scalar) or isinstance(first.value, bool) or first.value is None:
+    first = node.items[0] if isinstance(node, SequenceNode) and node.items else node
+    if not isinstance(first, ScalarNode) or isinstance(first.value, bool) or first.value is None:
         return None
     try:
         quantity = parse_quantity(first.value)
@@ -191,7 +191,7 @@ def mismatch(quantity: Quantity, declared: Unit) -> str:
 
 def said(node: Node) -> str:
     """A node as an error names it."""
-    if isinstance(node, Scalar):
+    if isinstance(node, ScalarNode):
         shown = {None: "nothing", True: "true", False: "false"}
         return shown.get(node.value, f'"{node.value}"')  # type: ignore[arg-type]
-    return "a mapping" if isinstance(node, Mapping) else "a list"
+    return "a mapping" if isinstance(node, MappingNode) else "a list"

@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 
 from gaitsim.errors import Faults, did_you_mean, nearest
-from gaitsim.text.document import Mapping, Node
+from gaitsim.text.document import MappingNode, Node
 
 
 def respelled(
-    node: Mapping, known: Iterable[str], lack: str, faults: Faults, address: str = "", more: Iterable[str] = ()
-) -> Mapping:
+    node: MappingNode, known: Iterable[str], lack: str, faults: Faults, address: str = "", more: Iterable[str] = ()
+) -> MappingNode:
     """The mapping with known keys; an unknown one is a fault and stands in for what it resembles.
 
     `lack` are the words before the unknown one, such as "a spec has no key"; `more` are known
@@ -27,4 +27,4 @@ def respelled(
             meant = None if near in node.entries else near
         if meant is not None and meant not in entries:
             entries[meant], keys[meant] = value, node.keys[word]
-    return Mapping(entries, keys, node.mark, node.swapped)
+    return MappingNode(entries, keys, node.mark, node.swapped)

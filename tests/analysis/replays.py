@@ -9,8 +9,8 @@ import pytest
 
 from gaitsim.analysis.replays.replay import Replay, replayed
 from gaitsim.cli.main import main
+from gaitsim.study.opened import open_result
 from gaitsim.study.replays import replay_of
-from gaitsim.study.source import source_of_result
 from tests.simulation.models import ROOT, model, written
 
 Settings = Iterable[tuple[str, str]]
@@ -29,7 +29,7 @@ def of_text(text: str, settings: Settings = ()) -> Replay:
 
 def of_result(folder: Path) -> Replay:
     """The best candidate of a result."""
-    return replay_of(source_of_result(folder, (), True, "best"), folder)
+    return replay_of(open_result(folder, (), True, "best"), folder)
 
 
 def cut(replay: Replay, count: int) -> Replay:

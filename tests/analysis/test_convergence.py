@@ -46,7 +46,7 @@ def test_the_summary_of_generations() -> None:
     assert scores.summary(0.5).tolist() == [5, 6, 7]
     assert scores.summary(0.25).tolist() == [5, 5, 7]
     assert scores.best_so_far.tolist() == [5, 4, 4]
-    assert scores.spread.tolist() == pytest.approx([0, np.std([4, 8, 6]), 0])
+    assert scores.deviation.tolist() == pytest.approx([0, np.std([4, 8, 6]), 0])
 
 
 def test_a_generation_that_failed_as_a_whole_leaves_a_gap() -> None:

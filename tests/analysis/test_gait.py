@@ -121,7 +121,7 @@ def test_a_leg_needs_contacts_on_its_side_and_two_strides() -> None:
 def test_what_is_followed_is_read_from_the_measures() -> None:
     found = followed(walk({}))
     assert [one.name for one in found] == ["hip flexion", "knee flexion", "ankle dorsiflexion"]
-    assert [one.source for one in found] == ["leg_r.hip.angle", "leg_r.knee.angle", "leg_r.ankle.angle"]
+    assert [one.signal for one in found] == ["leg_r.hip.angle", "leg_r.knee.angle", "leg_r.ankle.angle"]
     assert [(round(math.degrees(one.zero)), one.direction) for one in found] == [(180, -1), (180, -1), (90, -1)]
     assert all(one.norm.deviation is not None and one.norm.unit == "deg" for one in found)
 

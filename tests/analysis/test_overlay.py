@@ -10,7 +10,7 @@ import pytest
 from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.gait.overlay import gait_overlays
 from gaitsim.analysis.gait.panels import PEOPLE
-from gaitsim.analysis.signals.plots import overview
+from gaitsim.analysis.signals.plots import signal_overlays
 from tests.analysis.replays import cut, of_spec
 from tests.analysis.walking import bent, phase, walk
 
@@ -56,7 +56,7 @@ def test_a_run_that_does_not_walk_is_named() -> None:
 
 def test_hoppers_are_compared_from_touchdown_on() -> None:
     hops = [of_spec("hopping_geyer2003", [("simulate.duration", "2.5 s"), ("feedback.gain", gain)]) for gain in "24"]
-    found = {drawing.name: drawing for drawing in overview(hops)}
+    found = {drawing.name: drawing for drawing in signal_overlays(hops)}
     assert list(found) == ["motion", "ground", "muscles", "control"]
     assert found["motion"].title == "Coordinates of the joints, last cycles from touchdown"
     for line in found["motion"].figure.axes[0].get_lines():
@@ -64,4 +64,4 @@ def test_hoppers_are_compared_from_touchdown_on() -> None:
         assert np.asarray(line.get_ydata())[0] == pytest.approx(0.99, abs=1e-3)  # the landing length
     # A run that falls is looked at as a whole.
     failed = replace(hops[0], outcome=replace(hops[0].outcome, status="stopped", reason="fall"))
-    assert overview([hops[0], failed])[0].title == "Coordinates of the joints"
+    assert signal_overlays([hops[0], failed])[0].title == "Coordinates of the joints"

@@ -177,7 +177,7 @@ def test_a_signal_that_one_run_lacks_is_drawn_of_the_others(swing: Replay) -> No
 
 
 def test_the_overview_of_any_model(swing: Replay, braked: Replay) -> None:
-    motion, control = plots.overview([swing, braked])[:2]
+    motion, control = plots.signal_overlays([swing, braked])[:2]
     assert [name for name, _ in drawn(motion)] == ["pivot.angle\n(rad)"]
     assert (motion.name, control.name) == ("motion", "control")
 

@@ -23,8 +23,8 @@ INNOCENT = [c for c in CANDIDATES if c != CULPRIT]
 def bundle(folder: Path, trap: str, duration: str = "200ms") -> Bundle:
     """A model whose trap acts above a level of 0.7."""
     settings = [f"parts.trap.use=trap/{trap}", f"simulate.duration={duration}"]
-    source = Opening(Study(folder).folder / "spec.yaml", tuple(settings), tuned=False).source()
-    return source.bundle([source.model()])
+    opened = Opening(Study(folder).folder / "spec.yaml", tuple(settings), tuned=False).open()
+    return opened.bundle([opened.model()])
 
 
 def evaluated(evaluate: Evaluator, candidates: list[Candidate]) -> dict[Candidate, Evaluation]:

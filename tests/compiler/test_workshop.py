@@ -65,7 +65,7 @@ def test_what_cannot_become_native_code_is_told_here(
     helpers: list[subprocess.Popen[bytes]], tmp_path: Path, capfd: pytest.CaptureFixture[str]
 ) -> None:
     head = "def update(p, u, x, y, dt):"
-    text = primitives()[0].source.replace(head, f"{head}\n        z = [[]]")
+    text = primitives()[0].text.replace(head, f"{head}\n        z = [[]]")
     broken = load_primitive("measure/broken", tmp_path / "broken.py", "broken.py", text)
     with pytest.raises(InvalidComponent, match=r"broken\.py:.*this cannot become native code"):
         workshop.bitcode_of([kernel_of(broken), *map(kernel_of, primitives())])

@@ -161,7 +161,7 @@ LINES = {
 def test_one_line_adds_each_device_to_the_walker() -> None:
     spec = ROOT / "specs" / "walking_geyer2010.yaml"
     settings = (*(f"{name}={line}" for name, line in LINES.items()), "simulate.duration=0.5 s")
-    outcome = Simulator(Opening(spec, settings).source().model()).run(recorded=True)
+    outcome = Simulator(Opening(spec, settings).open().model()).run(recorded=True)
     assert outcome.status == "completed" and outcome.trajectory is not None, outcome.reason
     for name in ("spring", "timed", "hip"):
         assert np.ptp(outcome.trajectory[f"{name}.moment"]) > 0, name

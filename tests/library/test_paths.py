@@ -201,7 +201,7 @@ def test_a_length_that_the_spec_sets_stays(tmp_path: Path) -> None:
 
 def test_moments_reach_the_joints(tmp_path: Path) -> None:
     model = made(tmp_path, HINGES.replace("MUSCLE", "geyer2010"))
-    wires = {(c.source, c.target, c.made_by) for c in model.connections}
+    wires = {(c.sender, c.target, c.made_by) for c in model.connections}
     for inner, joint in (("first", "hip"), ("second", "knee")):
         part = f"hamstrings.path.{inner}"
         assert (f"{part}.moment", f"{joint}.moment", part) in wires

@@ -54,7 +54,7 @@ def test_a_sum_is_clipped_before_its_gate(total: float, clipped: float, mode: Mo
 
 def excitation(run: Replay, muscle: str) -> Floats:
     """What the parts of the model send to a muscle, as it clips it."""
-    sent = [c.source for c in run.model.connections if c.target == f"{muscle}.excitation"]
+    sent = [c.sender for c in run.model.connections if c.target == f"{muscle}.excitation"]
     total = np.sum([run.trajectory[source] for source in sent], axis=0)
     return np.clip(total, 0.01, 1)
 
@@ -154,7 +154,7 @@ class Law:
 
 def test_the_leg_computes_the_law() -> None:
     """Every muscle's stimulation at each instant, from the equations as one piece."""
-    run = replay_of(Opening(RUNNER, tuned=False).source(), RUNNER, duration=1.5)
+    run = replay_of(Opening(RUNNER, tuned=False).open(), RUNNER, duration=1.5)
     for leg in ("leg_l", "leg_r"):
         for muscle, wanted in Law(run, leg).stimulations().items():
             found = excitation(run, f"{leg}.{muscle}")[100:]  # delays reach back before the start

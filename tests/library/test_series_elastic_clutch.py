@@ -81,13 +81,13 @@ def test_for_metabolics_it_is_an_isometric_source_whose_part_in_use_is_active() 
     assert found["activation"] == pytest.approx([0, 0, 1 / 3, 1])
     assert not np.any(found["fiber_velocity"])
     assert np.all(found["normalized_isometric_force"] == 1)
-    model = Opening(WALKER, tuned=False).source().model()
-    sent = {c.target: c.source for c in model.connections}
+    model = Opening(WALKER, tuned=False).open().model()
+    sent = {c.target: c.sender for c in model.connections}
     assert sent["leg_r.vastus.metabolics.excitation"] == "leg_r.vastus.activation"
 
 
 def test_moment_times_angle_is_force_times_length_along_every_path_of_a_clutch() -> None:
-    model = Opening(WALKER, tuned=False).source().model()
+    model = Opening(WALKER, tuned=False).open().model()
     values = model.values()
     clutches = [part.address for part in model.parts if part.type.reference == CLUTCH]
     assert len(clutches) == 10

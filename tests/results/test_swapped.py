@@ -21,10 +21,10 @@ PATH = (
     "swap", ["ground.use=contact/mujoco", f"extensor.path={PATH}", "use_for.muscle=muscle/geyer2003"]
 )
 def test_a_swapped_model_is_the_same_from_its_bundle(swap: str, tmp_path: Path) -> None:
-    source = Opening(SPEC, (swap, "simulate.duration=1 s",), tuned=False).source()
-    model = source.model()
-    source.bundle([model]).write(tmp_path)
-    again = read_bundle(tmp_path, source.name).model()
+    opened = Opening(SPEC, (swap, "simulate.duration=1 s",), tuned=False).open()
+    model = opened.model()
+    opened.bundle([model]).write(tmp_path)
+    again = read_bundle(tmp_path, opened.name).model()
     assert [part.type.reference for part in again.parts] == [part.type.reference for part in model.parts]
     assert again.values() == model.values()
     assert Simulator(again).run().metrics == Simulator(model).run().metrics

@@ -96,10 +96,10 @@ def test_parameters_are_shown_in_their_own_units(command: Any) -> None:
 def test_the_model_has_si_from_text_and_from_declarations_alike(command: Any) -> None:
     from gaitsim.study.opening import Opening
 
-    model = Opening(Path("spec.yaml"), tuned=False).source().model()
+    model = Opening(Path("spec.yaml"), tuned=False).open().model()
     values = dict(zip((n.address for n in model.numbers), model.values(), strict=True))
     assert {address: values[address] for address in SAID} == {a: value for a, (_, _, value) in SAID.items()}
-    declared = Opening(Path("spec.yaml"), ("odd.delay={tune: [1 ms, 20 ms]}",), tuned=False).source().model()
+    declared = Opening(Path("spec.yaml"), ("odd.delay={tune: [1 ms, 20 ms]}",), tuned=False).open().model()
     assert next(free.start for free in declared.free if free.address == "odd.delay") == 0.015
 
 

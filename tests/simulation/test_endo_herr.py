@@ -15,7 +15,7 @@ CLUTCHES = ("vastus", "gastrocnemius", "hamstrings", "rectus_femoris", "biceps_f
 
 @pytest.mark.parametrize("step", ["0.5 ms", "0.25 ms"])
 def test_it_walks_at_its_step_and_at_half_of_it(step: str) -> None:
-    model = Opening(WALKER, ("simulate.step=" + step,)).source().model()
+    model = Opening(WALKER, ("simulate.step=" + step,)).open().model()
     found = Simulator(model).run()
     assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
     walk = found.metrics
@@ -38,6 +38,6 @@ def test_it_walks_at_its_step_and_at_half_of_it(step: str) -> None:
 @pytest.mark.parametrize(("variant", "cost"), [("biceps_femoris", 3.03), ("rectus_femoris", 3.21)])
 def test_a_muscle_instead_of_one_clutch_costs_more(variant: str, cost: float) -> None:
     """The walker itself walks for 2.92 J/(kg m)."""
-    found = Simulator(Opening(ROOT / "specs" / f"walking_endo_herr_{variant}.yaml").source().model()).run()
+    found = Simulator(Opening(ROOT / "specs" / f"walking_endo_herr_{variant}.yaml").open().model()).run()
     assert found.metrics["fall_time"] == pytest.approx(20)
     assert found.metrics["cost_of_transport"] == pytest.approx(cost, abs=0.05)

@@ -21,11 +21,11 @@ SLOWER = {
 
 @pytest.mark.parametrize("cause", SLOWER)
 def test_each_walks_and_more_slowly_than_the_healthy_one(cause: str) -> None:
-    found = Simulator(Opening(ROOT / "specs" / f"walking_{cause}.yaml").source().model()).run()
+    found = Simulator(Opening(ROOT / "specs" / f"walking_{cause}.yaml").open().model()).run()
     assert found.metrics["fall_time"] == pytest.approx(10) and found.metrics["fall_time.fell"] == 0
     assert found.metrics["speed"] == pytest.approx(SLOWER[cause], abs=0.05)
 
 
 def test_the_healthy_one_is_the_walker() -> None:
-    found = Simulator(Opening(ROOT / "specs" / "walking_impaired.yaml").source().model()).run()
+    found = Simulator(Opening(ROOT / "specs" / "walking_impaired.yaml").open().model()).run()
     assert found.metrics["speed"] == pytest.approx(1.31, abs=0.03)

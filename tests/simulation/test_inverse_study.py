@@ -20,7 +20,7 @@ PERIOD, STEP = 1.1, 0.5e-3  # s
 
 @pytest.fixture(scope="module")
 def outcome() -> Outcome:
-    found = Simulator(Opening(STUDY).source().model()).run(recorded=True)
+    found = Simulator(Opening(STUDY).open().model()).run(recorded=True)
     assert found.status == "completed"
     return found
 
@@ -35,7 +35,7 @@ def test_springs_alone_give_the_moment_of_the_knee(outcome: Outcome) -> None:
 
 def test_a_clutch_does_what_plain_arrays_do(outcome: Outcome) -> None:
     """The vastus, from the table of knee angles: engaged once, held, let go where its path is as long again."""
-    model = Opening(STUDY).source().model()
+    model = Opening(STUDY).open().model()
     values = model.values()
     number = {p.address: p.numbers for p in model.parts}
     stiffness = values[number["vastus"]["stiffness"]]

@@ -18,7 +18,7 @@ RUNNER = ROOT / "specs" / "running_wang2012.yaml"
 
 @pytest.mark.parametrize("step", ["0.5 ms", "0.25 ms"])
 def test_it_runs_with_a_flight_in_every_step(step: str) -> None:
-    found = Simulator(Opening(RUNNER, ("simulate.step=" + step,)).source().model()).run()
+    found = Simulator(Opening(RUNNER, ("simulate.step=" + step,)).open().model()).run()
     assert found.status == "completed" and found.simulated_seconds == pytest.approx(10)
     run = found.metrics
     assert run["fall_time.fell"] == 0
@@ -30,7 +30,7 @@ def test_it_runs_with_a_flight_in_every_step(step: str) -> None:
 
 
 def test_nothing_that_is_known_of_walkers_stands_beside_a_runner() -> None:
-    replay = replay_of(Opening(RUNNER).source(), RUNNER, duration=4)
+    replay = replay_of(Opening(RUNNER).open(), RUNNER, duration=4)
     legs = two_legs(replay)
     assert legs is not None
     assert runs(replay) and not matched_moments(replay, legs)

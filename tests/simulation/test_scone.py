@@ -6,22 +6,22 @@ import pytest
 
 from gaitsim.simulation.run import Simulator
 from gaitsim.study.opening import Opening
-from gaitsim.text.document import Mapping, parse, plain
+from gaitsim.text.document import MappingNode, parse, plain
 
 from .models import ROOT
 
 WALKER = ROOT / "specs" / "walking_scone_h0918.yaml"
 
 
-def parts(name: str) -> Mapping:
+def parts(name: str) -> MappingNode:
     path = ROOT / "library" / "leg" / name
     found = parse(path.read_text(encoding="utf-8"), name).entries["parts"]
-    assert isinstance(found, Mapping)
+    assert isinstance(found, MappingNode)
     return found
 
 
 def walk(step: str) -> dict[str, float]:
-    found = Simulator(Opening(WALKER, ("simulate.step=" + step,)).source().model()).run()
+    found = Simulator(Opening(WALKER, ("simulate.step=" + step,)).open().model()).run()
     assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
     return found.metrics
 
@@ -39,7 +39,7 @@ def test_its_muscles_are_those_of_the_walker_in_space() -> None:
 
 def test_the_published_start() -> None:
     """The right foot carries the weight, which is that of 74.53 kg, and every fiber is at rest."""
-    model = Opening(WALKER, ("simulate.duration=0.5 ms",), tuned=False).source().model()
+    model = Opening(WALKER, ("simulate.duration=0.5 ms",), tuned=False).open().model()
     found = Simulator(model).run(recorded=True).trajectory
     assert found is not None
     assert found["leg_r.heel.weight"][0] == pytest.approx(74.53 * 9.81, rel=1e-4)

@@ -22,8 +22,8 @@ def doubts(spec: str, *settings: tuple[str, str]) -> Doubts:
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda path: path.stem)
 def test_no_shipped_spec_starts_unusually(spec: Path) -> None:
-    source = Opening(spec).source()
-    simulator = Simulator(source.model(variants(source.document, [])[0].document))
+    opened = Opening(spec).open()
+    simulator = Simulator(opened.model(variants(opened.document, [])[0].document))
     assert start_doubts(simulator) == Doubts()
 
 

@@ -21,7 +21,7 @@ WALKER = ROOT / "specs" / "walking_geyer2010.yaml"
 
 @cache
 def run(spec: Path, *settings: str, tuned: bool = True) -> Outcome:
-    return Simulator(Opening(spec, tuple(settings), tuned=tuned).source().model()).run()
+    return Simulator(Opening(spec, tuple(settings), tuned=tuned).open().model()).run()
 
 
 @pytest.mark.parametrize("settings", [(), ("simulate.step=1 ms",)], ids=["its step", "half of it"])
@@ -42,7 +42,7 @@ def test_it_walks_out_of_the_box_at_its_step_and_at_half_of_it(settings: tuple[s
 
 
 def test_the_result_that_produced_its_values_is_in_the_repository() -> None:
-    model = Opening(WALKER).source().model()
+    model = Opening(WALKER).open().model()
     tuned = read_tuned(tuned_path(WALKER), model.free)
     rows = [json.loads(line) for line in (ROOT / tuned.result / "evaluations.jsonl").read_text().splitlines()]
     best = min(rows, key=lambda row: row["score"])
@@ -61,7 +61,7 @@ def test_its_step_is_right_within_one_percent() -> None:
 
 @pytest.mark.slow
 def test_it_walks_with_every_tuned_number_changed_by_up_to_one_percent() -> None:
-    model = Opening(WALKER).source().model()
+    model = Opening(WALKER).open().model()
     draws = Draws(10, 0.01, seed=1).values(problem_of(model))
     found = [Simulator(model.started_at(values)).run().status for values in draws]
     assert found.count("completed") >= 9

@@ -9,7 +9,7 @@ import pytest
 
 from gaitsim.errors import ExitCode, InvalidSpec, Mark, Usage
 from gaitsim.spec.inheritance import merged, override, split_setting, with_parents
-from gaitsim.text.document import Mapping, parse, plain
+from gaitsim.text.document import MappingNode, parse, plain
 
 WALK = """\
 gaitsim: 1
@@ -54,7 +54,7 @@ def test_order_and_marks_are_kept() -> None:
     assert spec.keys["a"] == Mark("base.yaml", 1, 1, "a: 1")
     assert spec.keys["b"] == Mark("over.yaml", 2, 1, "b: {d: 2}")
     inner = spec.entries["b"]
-    assert isinstance(inner, Mapping)
+    assert isinstance(inner, MappingNode)
     assert inner.entries["c"].mark == Mark("base.yaml", 2, 8, "b: {c: 1}")
     assert inner.entries["d"].mark == Mark("over.yaml", 2, 8, "b: {d: 2}")
 
@@ -66,7 +66,7 @@ def test_null_removes_what_is_there_and_waits_where_a_composite_may_have_it() ->
     }
 
 
-def chain(folder: Path, **texts: str) -> Mapping:
+def chain(folder: Path, **texts: str) -> MappingNode:
     for name, text in texts.items():
         (folder / f"{name}.yaml").write_text(text, encoding="utf-8")
     return with_parents(folder / "walk.yaml", "walk.yaml")
@@ -193,9 +193,9 @@ def test_only_what_is_set_bears_the_mark_of_the_setting() -> None:
     before = parse(WALK, "walk.yaml")
     parts = override(before, "trunk.mass", "80 kg").entries["parts"]
     assert plain(before) == plain(parse(WALK, "walk.yaml"))
-    assert isinstance(parts, Mapping)
+    assert isinstance(parts, MappingNode)
     trunk = parts.entries["trunk"]
-    assert isinstance(trunk, Mapping)
+    assert isinstance(trunk, MappingNode)
     assert (trunk.mark.line, trunk.entries["use"].mark.line) == (3, 3)
     assert trunk.keys["mass"] == trunk.entries["mass"].mark == Mark("--set trunk.mass=80 kg")
 

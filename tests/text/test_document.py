@@ -14,7 +14,7 @@ import yaml
 
 from gaitsim.errors import ExitCode, InvalidSpec, Mark
 from gaitsim.text import document
-from gaitsim.text.document import Mapping, Scalar, dump, parse, parse_value, plain, read
+from gaitsim.text.document import MappingNode, ScalarNode, dump, parse, parse_value, plain, read
 
 WRITTEN: dict[str, Any] = {
     "null": None, "~": None, "": None, "Null": "Null",
@@ -52,12 +52,12 @@ def test_scalars_follow_five_rules(text: str) -> None:
 def test_marks_count_letters_from_one() -> None:
     top = parse("\ufeffknie:\r\n  länge: [5 cm, ä]\r\n", "a.yaml")
     knee = top.entries["knie"]
-    assert isinstance(knee, Mapping)
+    assert isinstance(knee, MappingNode)
     assert top.keys["knie"] == Mark("a.yaml", 1, 1, "knie:")
     assert knee.keys["länge"] == Mark("a.yaml", 2, 3, "  länge: [5 cm, ä]")
     length = knee.entries["länge"]
-    assert isinstance(length, document.Sequence)
-    assert length.items[1] == Scalar("ä", Mark("a.yaml", 2, 17, "  länge: [5 cm, ä]"))
+    assert isinstance(length, document.SequenceNode)
+    assert length.items[1] == ScalarNode("ä", Mark("a.yaml", 2, 17, "  länge: [5 cm, ä]"))
 
 
 SYNTAX = {
@@ -296,10 +296,10 @@ def test_pipes_devices_and_dead_links_are_refused(tmp_path: Path) -> None:
 
 def test_a_value_alone_follows_the_same_rules() -> None:
     mark = Mark("--set a=1")
-    assert parse_value("1e3", "--set a=1") == Scalar(1000.0, mark)
+    assert parse_value("1e3", "--set a=1") == ScalarNode(1000.0, mark)
     value = parse_value("{from: leg.load, delay: [5 ms]}", "--set a=1")
     assert plain(value) == {"from": "leg.load", "delay": ["5 ms"]}
-    assert isinstance(value, Mapping)
+    assert isinstance(value, MappingNode)
     assert value.keys["from"] == mark
     with pytest.raises(InvalidSpec) as caught:
         parse_value("[1, 2", "--set a=[1, 2")
@@ -358,5 +358,5 @@ def test_sides_need_no_quotes_between_braces() -> None:
     node = document.parse(text, "a.yaml")
     assert document.plain(node) == {"a": {"from": "leg_{other}.load"}, "b": "leg_{side}", "c": "{other}"}
     inner = node.entries["a"]
-    assert isinstance(inner, document.Mapping)
+    assert isinstance(inner, document.MappingNode)
     assert inner.entries["from"].mark.text == "a: {from: leg_{other}.load}"

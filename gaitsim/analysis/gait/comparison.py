@@ -34,11 +34,11 @@ _MOMENT_OF = {
 class Followed:
     """A signal that a measure of the model compares with a recorded curve, on either side.
 
-    source: address of the signal on one side. What the curve counts is direction (signal - zero), in SI.
+    signal: address of the signal on one side. What the curve counts is direction (signal - zero), in SI.
     """
 
     norm: Norm
-    source: str
+    signal: str
     zero: float
     direction: float
 
@@ -49,7 +49,7 @@ class Followed:
 
     def on(self, replay: Replay, side: str) -> Floats | None:
         """The signal of a side as the curve counts it; None if the side has none."""
-        address = on_side(self.source, side)
+        address = on_side(self.signal, side)
         if address not in replay.trajectory.signals:
             return None
         return self.direction * (replay.trajectory[address] - self.zero)
@@ -81,13 +81,13 @@ def followed(replay: Replay) -> list[Followed]:
     for part in model.parts:
         if part.type.reference != _GAIT_CURVE:
             continue
-        source = next((c.source for c in model.connections if c.target == f"{part.address}.signal"), None)
-        if source is None:
+        signal = next((c.sender for c in model.connections if c.target == f"{part.address}.signal"), None)
+        if signal is None:
             continue
-        norm = _norm(model, part, source, library)
+        norm = _norm(model, part, signal, library)
         values = model.values()
         zero, direction = (values[part.numbers[name]] for name in ("zero", "direction"))
-        found.setdefault((norm.name, on_side(source, "l")), Followed(norm, source, zero, direction))
+        found.setdefault((norm.name, on_side(signal, "l")), Followed(norm, signal, zero, direction))
     return list(found.values())
 
 
@@ -96,7 +96,7 @@ def runs(replay: Replay) -> bool:
     return any(one.norm.name.startswith(RUNNING) for one in followed(replay))
 
 
-def _norm(model: Model, part: Part, source: str, library: Library) -> Norm:
+def _norm(model: Model, part: Part, signal: str, library: Library) -> Norm:
     """The recorded curve of a measure, with its deviation if its table is at hand."""
     recording = part.series["curve"]
     table, _, column = recording.column.rpartition(".")
@@ -104,7 +104,7 @@ def _norm(model: Model, part: Part, source: str, library: Library) -> Norm:
         return read_norm(column, library, table)
     except (InvalidSpec, KeyError):
         name = recording.column or part.address
-        return Norm(name, _unit(model, source), np.array(recording.values), None, recording.source)
+        return Norm(name, _unit(model, signal), np.array(recording.values), None, recording.source)
 
 
 def _unit(model: Model, signal: str) -> str:
@@ -135,7 +135,7 @@ def matched_moments(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
             continue
         cycles = {}
         for leg in legs:
-            moment = joint_moment(replay, on_side(one.source, leg.side).rpartition(".")[0])
+            moment = joint_moment(replay, on_side(one.signal, leg.side).rpartition(".")[0])
             if moment is not None:
                 cycles[leg.side] = leg.over_cycle(-one.direction * moment / mass(replay, leg))
         if cycles:

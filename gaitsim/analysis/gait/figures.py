@@ -155,7 +155,7 @@ def _draw_power(panel: Axes, replay: Replay, legs: Legs, joint: Followed) -> str
     """A joint's power in W/kg, and in words what it gives and takes in a stride."""
     words = []
     for leg in legs:
-        own = on_side(joint.source, leg.side).rpartition(".")[0]
+        own = on_side(joint.signal, leg.side).rpartition(".")[0]
         power, works = joint_power(replay, own), joint_work(replay, leg, own)
         if power is None or works is None:
             continue

@@ -165,7 +165,7 @@ def _weight(replay: Replay, contacts: tuple[str, ...]) -> float:
 def _rule(model: Model, side: str) -> tuple[float, float]:
     """Threshold and hold of the model's own measure of stance on a side; its defaults if it has none."""
     values = model.values()
-    senders = {c.target: c.source for c in model.connections}
+    senders = {c.target: c.sender for c in model.connections}
     for part in model.parts:
         if part.type.reference == _STANCE and side_of(senders.get(f"{part.address}.load", "")) == side:
             return values[part.numbers["threshold"]], values[part.numbers["hold"]]

@@ -94,7 +94,7 @@ def _of_pressure(replay: Replay, legs: Legs) -> Iterator[Quantity]:
 def _of_energy(replay: Replay, legs: Legs) -> Iterator[Quantity]:
     for one in followed(replay):
         joint = one.name.split()[0]
-        works = [joint_work(replay, leg, on_side(one.source, leg.side).rpartition(".")[0]) for leg in legs]
+        works = [joint_work(replay, leg, on_side(one.signal, leg.side).rpartition(".")[0]) for leg in legs]
         known = {
             leg.side: np.array(work) / mass(replay, leg)
             for leg, work in zip(legs, works, strict=True)

@@ -82,15 +82,15 @@ def hops_of(replay: Replay) -> Hops | None:
     reference = values[part.numbers["reference"]] if "reference" in part.numbers else 0.0
     least = values[part.numbers["least_height"]] if "least_height" in part.numbers else 0.0
     senders = [c for c in replay.model.connections if c.target == f"{own}.height"]
-    source = senders[0].source if len(senders) == 1 and senders[0].delay is None else None
+    signal = senders[0].sender if len(senders) == 1 and senders[0].delay is None else None
     return Hops(
         own,
-        source or f"{own}.height",
+        signal or f"{own}.height",
         arriving(replay, f"{own}.height") - reference,
         airborne,
         reference,
         least,
-        source if source in replay.model.initial else None,
+        signal if signal in replay.model.initial else None,
     )
 
 
@@ -230,8 +230,8 @@ def _apexes(hops: Hops) -> Drawing:
     whole_numbers(axes)
     axes.set_xlabel(labelled("hop", "1"))
     axes.set_ylabel(labelled("apex height", "m"))
-    spread = np.ptp(heights)
-    if spread < 1e-3:  # rounding errors are not worth a magnified axis
+    extent = np.ptp(heights)
+    if extent < 1e-3:  # rounding errors are not worth a magnified axis
         axes.set_ylim(heights.mean() - 0.01, heights.mean() + 0.01)
     last = heights[-3:]
     caption = (

@@ -124,8 +124,8 @@ def _of_joint(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, 
     drives = [name for name, port in part.type.inputs.items() if parse_unit(port.unit).si in ("N", "N m")]
     for drive in drives:
         kinds = {p.address: p.type.kind for p in replay.model.parts}
-        senders = [c.source for c in replay.model.connections if c.target == f"{own}.{drive}"]
-        if senders and all(kinds[source.rpartition(".")[0]] != "path" for source in senders):
+        senders = [c.sender for c in replay.model.connections if c.target == f"{own}.{drive}"]
+        if senders and all(kinds[sender.rpartition(".")[0]] != "path" for sender in senders):
             given[f"{own}, {drive}"] = _integral(arriving(replay, f"{own}.{drive}") * velocity, replay.times)
     damping = 0.0
     if "damping" in part.numbers:

@@ -113,5 +113,5 @@ def _draw_sent(panel: Axes, replay: Replay, part: Replay, muscle: str) -> None:
     model = replay.model
     for number, connection in enumerate(c for c in model.connections if c.target == f"{muscle}.excitation"):
         values: Floats = np.clip(sent(replay, connection)[kept], -_LARGEST, _LARGEST)
-        sender = unsided(connection.source.rpartition(".")[0])
+        sender = unsided(connection.sender.rpartition(".")[0])
         panel.plot(*thinned(part.times, values, 600), linewidth=1.1, label=sender.replace("_", " "), **look(number))

@@ -41,7 +41,7 @@ def arriving(replay: Replay, port: str) -> Floats:
 
 def sent(replay: Replay, connection: Connection) -> Floats:
     """What arrives of one sender, delayed as it was; nan where it was sent before what is looked at."""
-    times, signal = replay.times, replay.trajectory[connection.source]
+    times, signal = replay.times, replay.trajectory[connection.sender]
     values = replay.model.values()
     delay = 0.0 if connection.delay is None else values[connection.delay]
     if delay == 0 or not len(times):

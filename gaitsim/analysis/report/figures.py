@@ -15,7 +15,7 @@ from gaitsim.analysis.searches.convergence import convergence_figures, tuned_fig
 from gaitsim.analysis.searches.draws import draws_figures
 from gaitsim.analysis.searches.sweep import sweep_figures
 from gaitsim.analysis.signals.motion import motion_figures
-from gaitsim.analysis.signals.plots import overview
+from gaitsim.analysis.signals.plots import signal_overlays
 
 FIGURES: tuple[Figures, ...] = (
     sweep_figures,
@@ -30,7 +30,7 @@ FIGURES: tuple[Figures, ...] = (
 )
 
 # Of several runs over one another.
-OVERLAYS: tuple[Callable[[Sequence[Replay]], list[Drawing]], ...] = (gait_overlays, overview)
+OVERLAYS: tuple[Callable[[Sequence[Replay]], list[Drawing]], ...] = (gait_overlays, signal_overlays)
 
 
 def missing(replay: Replay) -> list[str]:

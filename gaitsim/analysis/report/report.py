@@ -32,7 +32,7 @@ _TYPES = {".mp4": "video/mp4", ".webm": "video/webm", ".gif": "image/gif"}
 class Film:
     """A video on the page: its address, embedded or beside the report, and whether it is a GIF."""
 
-    source: str
+    address: str
     name: str
     embedded: bool
     moving_picture: bool
@@ -111,13 +111,13 @@ def _about(replay: Replay) -> str:
     """What the spec says about itself; empty if it does not, or cannot be read any more."""
     from gaitsim.errors import GaitsimError
     from gaitsim.spec.resolve import read_spec
-    from gaitsim.text.document import Scalar
+    from gaitsim.text.document import ScalarNode
 
     try:
         said = read_spec(replay.folder / "spec.yaml" if replay.folder else replay.path).entries.get("about")
     except (GaitsimError, OSError):
         return ""
-    return str(said.value) if isinstance(said, Scalar) else ""
+    return str(said.value) if isinstance(said, ScalarNode) else ""
 
 
 def _picture(drawing: Drawing) -> Picture:

@@ -64,7 +64,7 @@ class Scores:
         return np.where(np.isfinite(best), best, math.nan)
 
     @property
-    def spread(self) -> Floats:
+    def deviation(self) -> Floats:
         """Standard deviation of each generation's scores."""
         return np.array([float(np.std(s)) if s.size else math.nan for s in self.scores])
 
@@ -121,7 +121,7 @@ def _ceiling(scores: Floats) -> float:
 
 
 def _by_generation(scores: Scores) -> Drawing:
-    figure, (axes, spread) = panels(2, 1, height=2.1, share=True)
+    figure, (axes, deviation) = panels(2, 1, height=2.1, share=True)
     numbers = np.array(scores.generations)
     mark = "o" if len(numbers) < 40 else ""
     axes.fill_between(numbers, scores.summary(0.25), scores.summary(0.75), color=PALETTE[0], alpha=0.2, linewidth=0)
@@ -131,17 +131,18 @@ def _by_generation(scores: Scores) -> Drawing:
     axes.set_ylim(top=_ceiling(np.concatenate(scores.scores)))
     axes.set_ylabel(labelled("score", "1"))
     above(axes)
-    wide = np.where(scores.spread > 0, scores.spread, math.nan)
-    spread.plot(numbers, wide, marker="o" if len(numbers) < 40 else "", markersize=3, color=GREY)
+    wide = np.where(scores.deviation > 0, scores.deviation, math.nan)
+    deviation.plot(numbers, wide, marker="o" if len(numbers) < 40 else "", markersize=3, color=GREY)
     if np.isfinite(wide).any() and np.nanmax(wide) > 10 * np.nanmin(wide):
-        spread.set_yscale("log")
-    spread.set_ylabel(labelled("standard deviation", "1"))
-    spread.set_xlabel(labelled("generation", "1"))
-    whole_numbers(spread)
+        deviation.set_yscale("log")
+    deviation.set_ylabel(labelled("standard deviation", "1"))
+    deviation.set_xlabel(labelled("generation", "1"))
+    whole_numbers(deviation)
     failed = f" {scores.failed} candidates failed and have no score." if scores.failed else ""
     caption = (
         "Score of each generation; it is a cost, so lower is better, and its unit is the objective's own. Band: the "
-        f"middle half of the candidates. Generation 0 is the start. Below: the spread of the scores.{failed}"
+        "middle half of the candidates. Generation 0 is the start. Below: the standard deviation of the "
+        f"scores.{failed}"
     )
     return Drawing("convergence", "Convergence", caption, figure)
 

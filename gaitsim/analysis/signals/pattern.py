@@ -65,7 +65,7 @@ def _missing(model: Model, text: str, known: Sequence[str]) -> str:
     owner, _, name = text.rpartition(".")
     part = next((part for part in model.parts if part.address == owner), None)
     if part is not None and name in part.type.inputs:
-        senders = [c.source for c in model.connections if c.target == text]
+        senders = [c.sender for c in model.connections if c.target == text]
         come = f"it comes from {_listed(senders)}" if senders else "nothing sends to it"
         return f"this is an input, and outputs and states are recorded; {come}"
     if part is not None and name in part.type.parameters:

@@ -53,7 +53,7 @@ def against_time(replays: Sequence[Replay], text: str) -> list[Drawing]:
     return _over_time(replays, chosen(replays, text), text, f"{text} against time", text)
 
 
-def overview(replays: Sequence[Replay]) -> list[Drawing]:
+def signal_overlays(replays: Sequence[Replay]) -> list[Drawing]:
     """Coordinates, ground forces, muscles and controllers of any model, over time; of walkers, only the first and last.
 
     Runs that all completed and have cycles are drawn over their last ones, from touchdown on.
@@ -172,10 +172,10 @@ def _watched(replays: Sequence[Replay], text: str) -> str:
     """The signal that a measure of this address watches; else the text itself."""
     for replay in replays:
         part = next((p for p in replay.model.parts if p.address == text and p.measure), None)
-        wired = (c.source for c in replay.model.connections if part and c.target.rpartition(".")[0] == text)
-        source = next(wired, None)
-        if source is not None:
-            return source
+        wired = (c.sender for c in replay.model.connections if part and c.target.rpartition(".")[0] == text)
+        sender = next(wired, None)
+        if sender is not None:
+            return sender
     return text
 
 

@@ -45,15 +45,15 @@ class Audit:
     complete: bool = True
 
 
-def audit(source: str, file: str, shared: Sequence[Shared] = ()) -> Audit:
+def audit(text: str, file: str, shared: Sequence[Shared] = ()) -> Audit:
     """Run every function of a component file on dimensions, along every path; also through what it imports."""
     try:
-        tree = parse(source, file)
-        others = [parse_shared(other.source, other.shown) for other in shared]
+        tree = parse(text, file)
+        others = [parse_shared(other.text, other.shown) for other in shared]
     except InvalidComponent as error:
         return Audit(error.faults, ())
     statements = _mark_statements(tree, others)
-    search = _Search(file, {file: source.splitlines()} | {one.shown: one.source.splitlines() for one in shared})
+    search = _Search(file, {file: text.splitlines()} | {one.shown: one.text.splitlines() for one in shared})
     space = _namespace(search)
     try:
         spaces = {}

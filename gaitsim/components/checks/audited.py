@@ -15,21 +15,21 @@ from gaitsim.cache import keep, kept
 _RULES = ("component.py", "units.py", "components/*.py", "components/checks/*.py", "text/expression.py")
 
 
-def sound_dependencies(source: str) -> dict[str, frozenset[str]] | None:
+def sound_dependencies(text: str) -> dict[str, frozenset[str]] | None:
     """The inputs that each output needs, of a text in which these checks have found no fault before; else None."""
-    known = kept("audited", _key(source))
+    known = kept("audited", _key(text))
     if known is None:
         return None
     return {str(output): frozenset(map(str, inputs)) for output, inputs in json.loads(known).items()}
 
 
-def remember(source: str, dependencies: Mapping[str, frozenset[str]]) -> None:
+def remember(text: str, dependencies: Mapping[str, frozenset[str]]) -> None:
     """This text has no fault. Where nothing can be written, it is checked again."""
-    keep("audited", _key(source), json.dumps({name: sorted(inputs) for name, inputs in dependencies.items()}).encode())
+    keep("audited", _key(text), json.dumps({name: sorted(inputs) for name, inputs in dependencies.items()}).encode())
 
 
-def _key(source: str) -> str:
-    return hashlib.sha256(f"{_rules()}|{source}".encode()).hexdigest()[:32]
+def _key(text: str) -> str:
+    return hashlib.sha256(f"{_rules()}|{text}".encode()).hexdigest()[:32]
 
 
 @cache

@@ -76,13 +76,13 @@ def class_functions(tree: ast.Module) -> dict[str, ast.FunctionDef]:
     return {node.name: node for node in class_body(tree) if isinstance(node, ast.FunctionDef)}
 
 
-def parse(source: str, file: str) -> ast.Module:
+def parse(text: str, file: str) -> ast.Module:
     """The syntax tree of a component file that holds only what such a file may hold.
 
     Errors: InvalidComponent.
     """
-    lines, faults = source.split("\n"), Faults()
-    tree = _python(source, file)
+    lines, faults = text.split("\n"), Faults()
+    tree = _python(text, file)
     classes = 0
     for node in tree.body:
         mark = place(file, lines, node.lineno, node.col_offset)
@@ -108,20 +108,20 @@ def parse(source: str, file: str) -> ast.Module:
     return tree
 
 
-def parse_shared(source: str, file: str) -> ast.Module:
+def parse_shared(text: str, file: str) -> ast.Module:
     """The syntax tree of a file that components of a kind import from.
 
     Errors: InvalidComponent.
     """
-    lines, faults = source.split("\n"), Faults()
-    tree = _python(source, file)
+    lines, faults = text.split("\n"), Faults()
+    tree = _python(text, file)
     for node in tree.body:
-        text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
+        is_text = isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant)
         allowed = isinstance(node, ast.Import | ast.ImportFrom | ast.Assign | ast.AnnAssign | ast.FunctionDef)
         if imports_shared(node):
             rule = "a shared file imports no other; define the names here, or import both files in the component."
             faults.add(rule, place(file, lines, node.lineno, node.col_offset))
-        elif not (text or allowed):
+        elif not (is_text or allowed):
             rule = "a shared file holds imports, constants, declarations and functions."
             faults.add(rule, place(file, lines, node.lineno, node.col_offset))
     for message, wrong in foreign(tree):
@@ -130,11 +130,11 @@ def parse_shared(source: str, file: str) -> ast.Module:
     return tree
 
 
-def _python(source: str, file: str) -> ast.Module:
+def _python(text: str, file: str) -> ast.Module:
     """The syntax tree of a text. Errors: InvalidComponent."""
-    lines = source.split("\n")
+    lines = text.split("\n")
     try:
-        return ast.parse(source, file)
+        return ast.parse(text, file)
     except (SyntaxError, ValueError) as error:
         line, column = getattr(error, "lineno", 0) or 0, getattr(error, "offset", 0) or 0
         text = lines[line - 1] if 0 < line <= len(lines) else ""

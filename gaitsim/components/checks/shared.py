@@ -27,17 +27,17 @@ class Shared:
     name: str
     path: Path
     shown: str
-    source: str
+    text: str
 
 
-def imported_names(source: str) -> list[str]:
+def imported_names(text: str) -> list[str]:
     """The shared files that the text of a component imports from, each once."""
-    return list(dict.fromkeys(_IMPORT.findall(source)))
+    return list(dict.fromkeys(_IMPORT.findall(text)))
 
 
-def whole(source: str, shared: Sequence[Shared]) -> str:
+def whole(text: str, shared: Sequence[Shared]) -> str:
     """The texts of shared files and of a component as one; that of the component alone if it imports none."""
-    return "".join(f"# {file.name}.py\n{file.source}" for file in shared) + source
+    return "".join(f"# {file.name}.py\n{file.text}" for file in shared) + text
 
 
 def imports_shared(node: ast.AST) -> bool:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
-from collections.abc import Mapping as Map
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -19,33 +18,35 @@ from gaitsim.spec.inheritance import override, split_setting, without
 from gaitsim.spec.resolve import resolve
 from gaitsim.spec.schema import optimize_section
 from gaitsim.spec.study import episodes
-from gaitsim.text.document import Mapping
+from gaitsim.text.document import MappingNode
 
 
 @dataclass(frozen=True)
-class Source:
+class Opened:
     """A document, the components it may use, and where its tuned numbers start.
 
     origin: where the starts come from, in words. place: the folder of the spec; of a result, the current folder.
     manifest, recorded: of a result, and what it says of the run that this is (as `row_data`).
     """
 
-    document: Mapping
+    document: MappingNode
     library: Library
     name: str
-    starts: Map[str, float]
+    starts: Mapping[str, float]
     notices: tuple[str, ...] = ()
-    manifest: Map[str, Any] = field(default_factory=dict)
-    recorded: Map[str, Any] = field(default_factory=dict)
+    manifest: Mapping[str, Any] = field(default_factory=dict)
+    recorded: Mapping[str, Any] = field(default_factory=dict)
     origin: str = ""
     place: Path = Path()
-    _resolved: dict[int, tuple[Mapping, Model]] = field(default_factory=dict, repr=False)  # by the id of the document
+    _resolved: dict[int, tuple[MappingNode, Model]] = field(
+        default_factory=dict, repr=False
+    )  # by the id of the document
 
-    def model(self, document: Mapping | None = None) -> Model:
+    def model(self, document: MappingNode | None = None) -> Model:
         """The model of the document, which is resolved once, or of a variant of it."""
         return self._written(document or self.document).started_at(self.starts, self.origin)
 
-    def _written(self, document: Mapping) -> Model:
+    def _written(self, document: MappingNode) -> Model:
         """The model with the starts that a document says."""
         if document is not self.document:
             return resolve(document, self.library, self.name)
@@ -58,7 +59,7 @@ class Source:
         return bundled(self.document, self.name, self.library, self.starts, models)
 
 
-def source_of_result(folder: Path, settings: Sequence[str], trusted: bool, candidate: str | None) -> Source:
+def open_result(folder: Path, settings: Sequence[str], trusted: bool, candidate: str | None) -> Opened:
     """A result's own spec and components, started at one of its candidates.
 
     candidate: of a search (best if None), or a run of a study; None leaves a study what it is.
@@ -87,10 +88,10 @@ def source_of_result(folder: Path, settings: Sequence[str], trusted: bool, candi
         notice = f"run {chosen + 1} of {len(rows)} of {folder}: {row_words(recorded)}" if len(rows) > 1 else ""
     for setting in settings:
         document, recorded = override(document, *split_setting(setting)), {}
-    return Source(document, library, name, starts, (notice,) if notice else (), manifest, recorded, str(folder))
+    return Opened(document, library, name, starts, (notice,) if notice else (), manifest, recorded, str(folder))
 
 
-def _first_episode(document: Mapping, verdict: Map[str, Any]) -> tuple[Mapping, dict[str, Any], str]:
+def _first_episode(document: MappingNode, verdict: Mapping[str, Any]) -> tuple[MappingNode, dict[str, Any], str]:
     """The spec of a search's first episode, what it says of that one, and words that tell of the others."""
     rows, found = episodes(document), verdict["episodes"]
     if not rows[0].settings:
