@@ -299,7 +299,7 @@ def _shortest(factor: float) -> float:
     return short if abs(short - factor) <= 4 * math.ulp(factor) else factor
 
 
-_NUMBER = re.compile(r"\s*([-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?)\s*(.*?)\s*$")
+_NUMBER = re.compile(r"\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s*(.*?)\s*$")
 
 
 @dataclass(frozen=True)

@@ -60,7 +60,7 @@ def load_table(path: Path, shown: str, text: str) -> Table:
         rule = "a table has a row of names with units, such as cycle [%],knee_flexion [deg], and two rows of numbers"
         raise InvalidSpec(Fault(f"{rule} or more.", Mark(shown)))
     heads, faults = _heads(rows[0]), Faults()
-    numbers = [list(_numbers(row, len(heads), separator == ";", faults)) for row in rows[1:]]
+    numbers = [list(_numbers(row, len(heads), separator != ",", faults)) for row in rows[1:]]
     faults.raise_if_any()
     over = parse_unit(heads[0][1]).factor * np.array([row[0] for row in numbers])
     _check_cycle(over, [mark for mark, _ in rows[1:]], heads[0][0], faults)
@@ -91,8 +91,8 @@ def _split(text: str, shown: str) -> tuple[list[str], list[Row], str]:
         if line.startswith("#"):
             about.append(line.lstrip("# "))
             continue
-        if not rows and ";" in line:
-            separator = ";"
+        if not rows:
+            separator = next((letter for letter in ";\t" if letter in line), ",")
         words = [word.strip() for word in next(csv.reader([line], delimiter=separator), [])]
         if any(words):
             rows.append((Mark(shown, n), words))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 import re
+from unicodedata import decimal
 
 from gaitsim.errors import Faults, nearest
 from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode
@@ -72,7 +73,7 @@ def quantity_of(text: str | float, unit: str) -> Quantity:
 
 def in_plain_letters(text: str | float) -> str:
     """What to write for a quantity that only its letters keep from being one, such as 2,5 kg or 170°; else empty."""
-    written = str(text)
+    written = "".join(str(decimal(letter)) if letter.isdecimal() else letter for letter in str(text))
     for letters, plain in _PLAIN.items():
         written = re.sub(letters, plain, written)
     whole = _THOUSANDS.sub(lambda number: number[0].replace(",", ""), written)

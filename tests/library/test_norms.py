@@ -129,10 +129,11 @@ def test_a_table_without_its_last_row_ends_where_it_begins(tmp_path: Path) -> No
     assert [math.degrees(curve[at]) for at in (0, 58, 98, 99, 100)] == pytest.approx([0, 29, 49, 24.5, 0])
 
 
-def test_a_table_of_a_spreadsheet_is_the_same_table(tmp_path: Path) -> None:
+@pytest.mark.parametrize("separator", [";", "\t"])
+def test_a_table_of_a_spreadsheet_is_the_same_table(separator: str, tmp_path: Path) -> None:
     shipped = (FOLDER / "norms" / "fukuchi2018_walking.csv").read_text(encoding="utf-8")
     words, head, rows = shipped.partition("cycle")
-    written = words + (head + rows).replace(",", ";").replace(".", ",") + ";;;;;;\n"
+    written = words + (head + rows).replace(",", separator).replace(".", ",") + 6 * separator + "\n"
     (tmp_path / "excel.csv").write_text(written.replace("\n", "\r\n"), encoding="utf-8-sig", newline="")
     found, expected = read_table(tmp_path / "excel.csv", "excel.csv"), table("fukuchi2018_walking")
     assert (found.recorded_by, found.units) == (expected.recorded_by, expected.units)
