@@ -8,6 +8,7 @@ class Spring(Component):
 
     In the air it points ahead by the angle of touchdown. It lands when its foot is on the ground, and pushes with
     k (l_0 - l) along itself until it has its rest length again (Blickhan 1989; Geyer, Seyfarth & Blickhan 2006).
+    A damper beside the spring, if there is one, takes c dl/dt off; the leg then takes off where its force ends.
     Touchdown and take-off are events, located within the step.
     """
 
@@ -26,6 +27,7 @@ class Spring(Component):
     stiffness = Input("N/m", "Stiffness k of the spring.")
     rest_length = Input("m", "Rest length l_0.")
     touchdown_angle = Input("rad", "Angle of the leg to the ground in the air; below 90 deg the foot is ahead.")
+    damping = Input("N s/m", "Damping c of the spring while the leg stands.", default=0)
     hip_torque = Input("N m", "Torque of the hip that turns the standing foot backwards.", sums=True)
     x = Input("m", "How far ahead the hip is.")
     z = Input("m", "How high the hip is.")
@@ -82,11 +84,13 @@ class Spring(Component):
             y.above = u.z - p.ground
             y.length = math.hypot(y.ahead, y.above)
             y.velocity = (y.ahead * u.forward_velocity + y.above * u.upward_velocity) / y.length
-            y.force = u.stiffness * (u.rest_length - y.length)
+            y.force = u.stiffness * (u.rest_length - y.length) - u.damping * y.velocity
             along, across = y.force / y.length, u.hip_torque / y.length**2
             y.forward_force = along * y.ahead + across * y.above
             y.upward_force = along * y.above - across * y.ahead
             y.guard = y.length - u.rest_length
+            if u.damping > 0.0:
+                y.guard = y.guard + u.damping * y.velocity / u.stiffness
         y.energy = 0.5 * u.stiffness * (u.rest_length - y.length) ** 2
 
     @staticmethod
