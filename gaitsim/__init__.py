@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from gaitsim.study.notebook import analyze, check, cycle, limit, optimize, run
+    from gaitsim.study.notebook_cohort import cohort
     from gaitsim.study.result import load
 
 __version__ = "0.1.0"
-__all__ = ["__version__", "analyze", "check", "cycle", "limit", "load", "optimize", "run"]
+__all__ = ["__version__", "analyze", "check", "cohort", "cycle", "limit", "load", "optimize", "run"]
 
 _HOMES = dict.fromkeys(("analyze", "check", "cycle", "limit", "optimize", "run"), "gaitsim.study.notebook") | {
-    "load": "gaitsim.study.result"
+    "cohort": "gaitsim.study.notebook_cohort",
+    "load": "gaitsim.study.result",
 }
 
 

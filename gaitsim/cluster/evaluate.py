@@ -8,18 +8,19 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from gaitsim.cluster.cohort import Rows, bundle_rows
 from gaitsim.cluster.episodes import Episodes, bundle_episodes
 from gaitsim.components.find import shown
 from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
-from gaitsim.results.bundle import Bundle
+from gaitsim.results.bundle import COHORT, Bundle
 from gaitsim.simulation.run import Mode
 
 
 @dataclass(frozen=True)
 class EpisodeRunner:
-    """The episodes of a candidate, and the folder where errors say that their spec and components lie."""
+    """The episodes of a candidate, or the rows of a cohort, and the folder where their spec and components lie."""
 
-    episodes: Episodes
+    episodes: Episodes | Rows
     folder: Path
 
     def verdict(self, x: Sequence[float]) -> Verdict:
@@ -42,7 +43,8 @@ def runner_of(bundle: Bundle, mode: Mode) -> EpisodeRunner:
     """
     key = (bundle.digest, mode)
     if key not in _runners:
-        _runners[key] = EpisodeRunner(bundle_episodes(bundle, mode), bundle.folder)
+        made = bundle_rows(bundle, mode) if COHORT in bundle.files else bundle_episodes(bundle, mode)
+        _runners[key] = EpisodeRunner(made, bundle.folder)
     return _runners[key]
 
 

@@ -18,7 +18,7 @@ from gaitsim.components.primitive import Primitive
 from gaitsim.spec.inheritance import without_marked
 from gaitsim.spec.resolve import resolve
 
-SPEC, COMPONENTS, START = "spec.yaml", "components", "start.json"
+SPEC, COMPONENTS, START, COHORT = "spec.yaml", "components", "start.json", "cohort.json"
 _SUFFIXES = (".py", ".yaml", ".csv")
 
 
@@ -117,8 +117,8 @@ def read_bundle(folder: Path, name: str) -> Bundle:
     except OSError as error:
         rule = f"{folder / COMPONENTS}: this cannot be read ({error.strerror or error}); restore it from a copy."
         raise BadResult(rule) from error
-    start = folder / START
-    paths = [folder / SPEC, *([start] if start.exists() or start.is_symlink() else []), *sorted(inside)]
+    more = [path for path in (folder / START, folder / COHORT) if path.exists() or path.is_symlink()]
+    paths = [folder / SPEC, *more, *sorted(inside)]
     return Bundle(name, {path.relative_to(folder).as_posix(): _text(path) for path in paths}, folder)
 
 

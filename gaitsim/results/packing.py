@@ -17,7 +17,7 @@ from gaitsim.results.store import CannotSave
 from gaitsim.whole import PARTIAL, whole
 
 _FILES = re.compile(
-    r"(manifest\.json|spec\.yaml|start\.json|model\.yaml|model\.xml|README\.md|changes\.diff"
+    r"(manifest\.json|spec\.yaml|start\.json|cohort\.json|table\.csv|model\.yaml|model\.xml|README\.md|changes\.diff"
     r"|evaluations\.jsonl|arriving\.jsonl|generations\.csv|parameters\.csv|timings\.csv"
     r"|components/\w+/\w+\.(py|yaml|csv))"
 )

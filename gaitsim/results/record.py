@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import os
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import ExitStack
 from dataclasses import asdict
 from pathlib import Path
@@ -68,9 +68,9 @@ class Record:
         except OSError as error:
             raise self._cannot(error) from error
 
-    def add(self, settings: Mapping[str, str], outcome: Outcome) -> None:
-        """Keep one run more. Errors: CannotSave, with the runs before it as they were."""
-        row = row_data(settings, outcome)
+    def add(self, settings: Mapping[str, str], outcome: Outcome, told: Mapping[str, Any] | None = None) -> None:
+        """Keep one run more, and what else is told of it. Errors: CannotSave, with the runs before it as they were."""
+        row = row_data(settings, outcome) | dict(told or {})
         if self._draws:
             row |= {"draw": len(self._rows) + 1, "values": self._drawn[len(self._rows)]}
         line = _line(row)
@@ -81,6 +81,16 @@ class Record:
         else:
             self._append(line)
         self._rows.append(row)
+
+    def arrange(self, place: Callable[[Mapping[str, Any]], int]) -> None:
+        """Put the runs in the order of their places. Errors: CannotSave."""
+        if self.folder is None:
+            return
+        self._rows.sort(key=place)
+        try:
+            write_whole(self.folder / _ROWS, "".join(_line(row) for row in self._rows))
+        except OSError as error:
+            raise self._cannot(error) from error
 
     def close(self, status: str) -> None:
         """Say how it ended: complete or interrupted. Errors: CannotSave."""

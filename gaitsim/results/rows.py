@@ -60,11 +60,12 @@ def pick_row(folder: Path, which: str) -> int:
 
 
 def row_words(row: Mapping[str, Any]) -> str:
-    """What was set in a run: gain = 2, ...; or which draw it is; empty if neither."""
+    """Whose run it is, of a cohort, and what was set in it: gain = 2, ...; or which draw it is; empty if neither."""
     said = [f"{address} = {value}" for address, value in row["settings"].items()]
-    return ", ".join([*said, *([f"draw {row['draw']}"] if "draw" in row else [])])
+    whose = [str(row["body"])] if "body" in row else []
+    return ", ".join([*whose, *said, *([f"draw {row['draw']}"] if "draw" in row else [])])
 
 
 def row_starts(row: Mapping[str, Any]) -> dict[str, float]:
-    """The tuned values of a draw, in SI, by address; none of another run."""
+    """The tuned values that a run has of its own, as a draw does, in SI, by address."""
     return {str(address): float(value) for address, value in row.get("values", {}).items()}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -39,12 +39,12 @@ class Keeping:
         """Where the runs are, if they are all there."""
         return self._record.folder if self._record and not self.error else None
 
-    def add(self, settings: Mapping[str, str], outcome: Outcome) -> None:
-        """Keep one run, unless one before it could not be kept."""
+    def add(self, settings: Mapping[str, str], outcome: Outcome, more: Mapping[str, Any] | None = None) -> None:
+        """Keep one run, and what else there is to say of it, unless one before it could not be kept."""
         if self._root and not self.error:
             with self.noting():
                 self._record = self._record or self._begun(self._root)
-                self._record.add(settings, outcome)
+                self._record.add(settings, outcome, *([more] if more else []))
 
     def go_on(self, folder: Path, rows: list[dict[str, Any]]) -> None:
         """Keep the runs that come in a folder that has some. Errors: CannotSave, Locked."""
@@ -60,6 +60,12 @@ class Keeping:
         xml = assemble(model, model.values()).xml
         bundle, place = self._opened.bundle(self._models), self._opened.place
         return Record(root, bundle, model, xml, self._mode, place, self._draws, self._more)
+
+    def arrange(self, place: Callable[[Mapping[str, Any]], int]) -> None:
+        """Put the runs that were kept in the order of their places, whatever order they came in."""
+        if self._record and not self.error:
+            with self.noting():
+                self._record.arrange(place)
 
     @contextmanager
     def noting(self) -> Iterator[None]:

@@ -107,7 +107,7 @@ def run(
     from gaitsim.study.draws import draws_asked
     from gaitsim.study.runs import Places, prepared
 
-    varied = [f"{address}={_values(values)}" for address, values in (vary or {}).items()]
+    varied = ranges(vary)
     file = None if out is None else Path(out)
     drawn = draws_asked(draws, within, seed, varied, file)
     opened = opening(path, set, library, start, trust, candidate, results)
@@ -383,6 +383,11 @@ def _text(value: Any) -> str:
     if isinstance(value, str):
         return value
     return json.dumps(value, default=float, ensure_ascii=False)
+
+
+def ranges(vary: Mapping[str, str | Sequence[Any]] | None) -> list[str]:
+    """What is varied, each as ADDRESS=VALUES."""
+    return [f"{address}={_values(values)}" for address, values in (vary or {}).items()]
 
 
 def _several(words: str | Sequence[str]) -> tuple[str, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -26,7 +26,8 @@ class Opened:
     """A document, the components it may use, and where its tuned numbers start.
 
     origin: where the starts come from, in words. place: the folder of the spec; of a result, the current folder.
-    manifest, recorded: of a result, and what it says of the run that this is (as `row_data`).
+    manifest, recorded: of a result, and what it says of the run that this is (as `row_data`). more: further files of
+    its bundle.
     """
 
     document: MappingNode
@@ -38,9 +39,8 @@ class Opened:
     recorded: Mapping[str, Any] = field(default_factory=dict)
     origin: str = ""
     place: Path = Path()
-    _resolved: dict[int, tuple[MappingNode, Model]] = field(
-        default_factory=dict, repr=False
-    )  # by the id of the document
+    more: Mapping[str, str] = field(default_factory=dict)
+    _resolved: dict[int, tuple[MappingNode, Model]] = field(default_factory=dict, repr=False)  # by the id of the document
 
     def model(self, document: MappingNode | None = None) -> Model:
         """The model of the document, which is resolved once, or of a variant of it."""
@@ -56,7 +56,8 @@ class Opened:
 
     def bundle(self, models: Iterable[Model]) -> Bundle:
         """The source as files, given the models made of it."""
-        return bundled(self.document, self.name, self.library, self.starts, models)
+        made = bundled(self.document, self.name, self.library, self.starts, models)
+        return replace(made, files=made.files | dict(self.more))
 
 
 def open_result(folder: Path, settings: Sequence[str], trusted: bool, candidate: str | None) -> Opened:

@@ -24,7 +24,7 @@ from gaitsim.results.manifest import FORMAT, write_manifest
 from gaitsim.results.store import CannotSave, finish
 from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.run import Mode
-from gaitsim.study.workplace import Workplace
+from gaitsim.study.workplace import Task, Workplace
 
 
 @dataclass
@@ -85,7 +85,7 @@ class Tuning:
         asked = self.manifest["search"]
         journal = Journal(self.folder)
         closing.callback(journal.close)
-        evaluator = workplace.evaluator(self.bundle, self.mode, say)
+        evaluator = workplace.evaluator(Task(self.bundle, self.mode), say)
         closing.callback(evaluator.close)
         rows, timings = GenerationsFile(self.folder), Timings(self.folder)
         closing.callback(rows.close)

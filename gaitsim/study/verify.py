@@ -19,6 +19,8 @@ from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.inheritance import override
 from gaitsim.spec.resolve import resolve
 
+_ENDED = ("killed", "timeout")  # what hung or killed a worker would do so again
+
 
 @dataclass(frozen=True)
 class Check:
@@ -42,8 +44,7 @@ def verified(bundle: Bundle, manifest: Mapping[str, Any], everything: bool) -> I
         yield from _runs(bundle, mode)
         return
     episodes = bundle_episodes(bundle, mode)
-    # What hung or killed a worker would do so again.
-    found = [e for e in evaluations_in(bundle.folder) if e.verdict.status not in ("killed", "timeout")]
+    found = [e for e in evaluations_in(bundle.folder) if e.verdict.status not in _ENDED]
     if not found:
         raise BadResult(f"{bundle.folder}: nothing was evaluated yet, so there is nothing to verify.")
     for evaluation in found if everything else _sample(found):
@@ -55,6 +56,8 @@ def verified(bundle: Bundle, manifest: Mapping[str, Any], everything: bool) -> I
 def _runs(bundle: Bundle, mode: Mode) -> Iterator[Check]:
     document, library, starts = bundle.document(), bundle.library(), bundle.starts()
     for i, row in enumerate(read_rows(bundle.folder)):
+        if row["status"] in _ENDED:
+            continue
         variant = document
         for address, text in row["settings"].items():
             variant = override(variant, address, text)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
+from gaitsim.cluster.patience import Patience
 from gaitsim.errors import Usage
 from gaitsim.optimization.search import Evaluator
 from gaitsim.results.bundle import Bundle
@@ -41,13 +42,22 @@ class Workplace:
         said = [word for option, value in named.items() if value is not None for word in (option, str(value))]
         return ["--cluster", *said] if self.cluster else said
 
-    def evaluator(self, bundle: Bundle, mode: Mode, say: Callable[[str], None]) -> Evaluator:
+    def evaluator(self, task: Task, say: Callable[[str], None]) -> Evaluator:
         """What evaluates the candidates of a bundle.
 
         Errors: ClusterError.
         """
         backend = next(backend for backend in BACKENDS if backend.asked(self))
-        return backend.make(self, bundle, mode, say)
+        return backend.make(self, task, say)
+
+
+@dataclass(frozen=True)
+class Task:
+    """What is evaluated: candidates of a bundle, in a mode, and how long one may take."""
+
+    bundle: Bundle
+    mode: Mode
+    patience: Patience = field(default_factory=Patience)
 
 
 @dataclass(frozen=True)
@@ -55,27 +65,28 @@ class Backend:
     """A way to evaluate candidates: whether a workplace asks for it, and what makes its evaluator."""
 
     asked: Callable[[Workplace], bool]
-    make: Callable[[Workplace, Bundle, Mode, Callable[[str], None]], Evaluator]
+    make: Callable[[Workplace, Task, Callable[[str], None]], Evaluator]
 
 
-def _dask(place: Workplace, bundle: Bundle, mode: Mode, say: Callable[[str], None]) -> Evaluator:
+def _dask(place: Workplace, task: Task, say: Callable[[str], None]) -> Evaluator:
     from gaitsim.cluster.connect import remote_client
     from gaitsim.cluster.parallel import Parallel
 
-    return Parallel(remote_client(place.scheduler, place.scheduler_file, say), bundle, mode)
+    client = remote_client(place.scheduler, place.scheduler_file, say)
+    return Parallel(client, task.bundle, task.mode, task.patience)
 
 
-def _this_process(_: Workplace, bundle: Bundle, mode: Mode, __: Callable[[str], None]) -> Evaluator:
+def _this_process(_: Workplace, task: Task, __: Callable[[str], None]) -> Evaluator:
     from gaitsim.cluster.evaluate import Serial, runner_of
 
-    return Serial(runner_of(bundle, mode))
+    return Serial(runner_of(task.bundle, task.mode))
 
 
-def _processes(place: Workplace, bundle: Bundle, mode: Mode, _: Callable[[str], None]) -> Evaluator:
+def _processes(place: Workplace, task: Task, _: Callable[[str], None]) -> Evaluator:
     from gaitsim.cluster.local import Local
     from gaitsim.simulation.threads import cores
 
-    return Local(bundle, mode, place.workers or cores())
+    return Local(task.bundle, task.mode, place.workers or cores(), task.patience)
 
 
 BACKENDS = (  # the first that is asked for

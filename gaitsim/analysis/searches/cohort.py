@@ -1,0 +1,141 @@
+"""Figures of a cohort: how each body ended with each device, and metrics over what differs."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from gaitsim.analysis.drawings.drawing import Drawing
+from gaitsim.analysis.drawings.style import FONT, GREY, PALETTE, above, labelled, panels
+from gaitsim.analysis.replays.cycles import Floats
+from gaitsim.analysis.searches.sweep import places
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+_COLOURS = {"completed": PALETTE[2], "retuned": PALETTE[5], "stopped": PALETTE[1], "failed": GREY}
+_HIGH = 0.17  # inches for a body
+
+
+@dataclass(frozen=True)
+class Outline:
+    """A row as it is drawn: the body's name, what is set, how it ended, and its metrics."""
+
+    body: str
+    settings: Mapping[str, str]
+    ending: str
+    metrics: Mapping[str, float]
+
+    def value(self, metric: str) -> float:
+        """A metric of a row that completed; nan for any other."""
+        return self.metrics.get(metric, math.nan) if self.ending in ("completed", "retuned") else math.nan
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """Bodies by devices, each row of a cohort in its place; the addresses that differ between them."""
+
+    bodies: tuple[tuple[Outline, ...], ...]
+    own: tuple[str, ...]
+    varied: tuple[str, ...]
+
+    @property
+    def devices(self) -> tuple[Outline, ...]:
+        return self.bodies[0]
+
+
+def cohort_figures(rows: Sequence[Outline], metrics: Sequence[str], units: Mapping[str, str]) -> list[Drawing]:
+    """The map of how rows ended, and a figure for each metric. rows: body by body, all with the same devices."""
+    grid = _grid(rows)
+    return [_endings(grid), *(_metric(grid, name, units[name]) for name in metrics)]
+
+
+def _grid(rows: Sequence[Outline]) -> _Grid:
+    names = list(dict.fromkeys(row.body for row in rows))
+    bodies = tuple(tuple(row for row in rows if row.body == name) for name in names)
+    addresses = list(dict.fromkeys(address for row in rows for address in row.settings))
+    varied = tuple(a for a in addresses if len({row.settings.get(a) for row in bodies[0]}) > 1)
+    own = tuple(a for a in addresses if a not in varied and len({row.settings.get(a) for row in rows}) > 1)
+    return _Grid(bodies, own, varied)
+
+
+def _endings(grid: _Grid) -> Drawing:
+    count = len(grid.bodies)
+    figure, (axes,) = panels(1, 1, height=max(1.4, 0.6 + _HIGH * count))
+    axes.grid(visible=False)
+    for ending in dict.fromkeys(row.ending for body in grid.bodies for row in body):
+        at = [(x, y) for y, body in enumerate(grid.bodies) for x, row in enumerate(body) if row.ending == ending]
+        across, along = zip(*at, strict=True)
+        label = f"{ending} ({len(at)})"
+        axes.scatter(across, along, marker="s", s=60, color=_COLOURS.get(ending, PALETTE[6]), label=label)
+    axes.set_yticks(range(count), [_said(body[0], grid.own) for body in grid.bodies], fontsize=FONT - 3)
+    axes.set_ylim(count - 0.4, -0.6)
+    axes.set_xlim(-0.6, len(grid.devices) - 0.4)
+    axes.set_xticks(range(len(grid.devices)), [", ".join(_words(row, grid.varied)) or "-" for row in grid.devices])
+    axes.set_xlabel(", ".join(grid.varied))
+    above(axes)
+    rows = count * len(grid.devices)
+    caption = (
+        f"How the runs of {count} bodies ended, {rows} in all. retuned: it completes with tuned values of its own."
+    )
+    return Drawing("endings", "How each body ended", caption, figure)
+
+
+def _metric(grid: _Grid, metric: str, unit: str) -> Drawing:
+    """A metric over the device, one line for each body; without devices, over what differs between bodies."""
+    figure, (axes,) = panels(1, 1, height=3.0)
+    over = [body[0] for body in grid.bodies] if not grid.varied else list(grid.devices)
+    address = (grid.varied or grid.own or ("body",))[0]
+    found = places([row.settings.get(address) for row in over])
+    at, name = found if found else (np.arange(len(over), dtype=np.float64), "")
+    if grid.varied:
+        _lines(figure, axes, grid, metric, at)
+    else:
+        axes.plot(at, [body[0].value(metric) for body in grid.bodies], "o", markersize=4)
+    if found is None:
+        axes.set_xticks(at, [row.settings.get(address, row.body) for row in over], rotation=30, ha="right")
+    axes.set_xlabel(labelled(address, name) if found else address)
+    axes.set_ylabel(labelled(metric, unit))
+    each = "One line for each body. " if grid.varied else ""
+    caption = f"{metric} over {address}. {each}Rows that did not complete are left out."
+    return Drawing(metric.replace(".", "_"), f"{metric} over {address}", caption, figure)
+
+
+def _lines(figure: Figure, axes: Axes, grid: _Grid, metric: str, at: Floats) -> None:
+    """One line for each body, coloured by the first number that differs between bodies; and their mean."""
+    from matplotlib import colormaps
+    from matplotlib.cm import ScalarMappable
+    from matplotlib.colors import Normalize
+
+    shade = places([body[0].settings.get(grid.own[0]) for body in grid.bodies]) if grid.own else None
+    values = np.array([[row.value(metric) for row in body] for body in grid.bodies])
+    scale = Normalize(shade[0].min(), shade[0].max()) if shade else Normalize(0, 1)
+    order = np.argsort(at, kind="stable")
+    for i, line in enumerate(values):
+        colour = colormaps["viridis"](scale(shade[0][i])) if shade else PALETTE[0]
+        axes.plot(at[order], line[order], "o-", color=colour, markersize=3, linewidth=0.9)
+    whole = values[np.isfinite(values).all(axis=1)]
+    if len(whole):
+        axes.plot(
+            at[order],
+            whole.mean(axis=0)[order],
+            "k-",
+            linewidth=2.2,
+            label=f"mean of {len(whole)} bodies that completed all",
+        )
+        above(axes)
+    if shade:
+        figure.colorbar(ScalarMappable(scale, "viridis"), ax=axes, label=labelled(grid.own[0], shade[1]))
+
+
+def _said(row: Outline, own: Sequence[str]) -> str:
+    return ", ".join([row.body, *_words(row, own)])
+
+
+def _words(row: Outline, addresses: Sequence[str]) -> list[str]:
+    return [row.settings.get(address, "") for address in addresses]

@@ -1,0 +1,306 @@
+"""One spec over many bodies and many devices: each row is a run of its own, tuned again for a while if need be."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from gaitsim.cluster.cohort import RowVerdict
+from gaitsim.cluster.patience import Patience
+from gaitsim.errors import Fault, InvalidComponent, InvalidSpec, Mark, Usage
+from gaitsim.model import Model
+from gaitsim.optimization.evaluation import Candidate, Verdict
+from gaitsim.results.bundle import COHORT, BadResult, Bundle
+from gaitsim.results.cohort import Cohort, Row, cohort_of
+from gaitsim.results.manifest import changed_versions, read_result
+from gaitsim.results.rows import read_rows
+from gaitsim.results.store import CannotSave
+from gaitsim.simulation.outcome import Outcome
+from gaitsim.simulation.run import Mode
+from gaitsim.spec.inheritance import without
+from gaitsim.spec.schema import optimize_section
+from gaitsim.spec.study import variants
+from gaitsim.study.bodies import Body, bodies_in
+from gaitsim.study.cohort_table import Cells, cells_of, write_cells
+from gaitsim.study.keeping import Keeping
+from gaitsim.study.listening import Listener
+from gaitsim.study.opening import Opening
+from gaitsim.study.source import Source
+from gaitsim.study.workplace import Task, Workplace
+
+if TYPE_CHECKING:
+    import pandas
+
+_PATIENCE = Patience()
+_TABLE = "table.csv"
+
+
+@dataclass(frozen=True)
+class Asked:
+    """What a cohort is of: a table of bodies, values of devices as ADDRESS=VALUES, and how rows are tuned again.
+
+    retune: evaluations that a row may take which does not complete; 0 tunes none. seed: of each of these searches;
+    None for the spec's. metrics: what is drawn.
+    """
+
+    bodies: Path
+    vary: Sequence[str] = ()
+    retune: int = 0
+    seed: int | None = None
+    metrics: Sequence[str] = ()
+
+    def check(self) -> None:
+        """Errors: Usage."""
+        if self.retune < 0:
+            raise Usage(f"--retune {self.retune}: a number of evaluations for each row, or 0 for none.")
+        if self.seed is not None and self.seed < 0:
+            raise Usage(f"--seed {self.seed}: this is at least 0.")
+
+
+@dataclass(frozen=True)
+class Found:
+    """What was found of a row: how it ended, the evaluations of its search, and the tuned values that this found."""
+
+    outcome: Outcome
+    evaluations: int = 0
+    values: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def ending(self) -> str:
+        """completed, retuned (it completes with values of its own), stopped, failed, killed or timeout."""
+        return "retuned" if self.outcome.status == "completed" and self.evaluations else self.outcome.status
+
+
+@dataclass
+class CohortRuns:
+    """The rows of a cohort, and what was found of them as far as they were run.
+
+    model: of the spec as it is. metrics: what is drawn. notices: what a reader should know. found: by the number of a
+    row, from 0.
+    """
+
+    cohort: Cohort
+    bundle: Bundle
+    model: Model
+    mode: Mode
+    metrics: Sequence[str]
+    keeping: Keeping
+    notices: Sequence[str] = ()
+    found: dict[int, Found] = field(default_factory=dict)
+
+    @property
+    def folder(self) -> Path | None:
+        """The result folder; None if the rows were not kept."""
+        return self.keeping.folder
+
+    @property
+    def bodies(self) -> list[str]:
+        """The names of the bodies."""
+        return list(dict.fromkeys(row.body for row in self.cohort.rows))
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many rows ended in each way."""
+        endings = [found.ending for found in self.found.values()]
+        return {ending: endings.count(ending) for ending in sorted(set(endings))}
+
+    def table(self) -> pandas.DataFrame:
+        """A row for each body with each device, from 1; numbers in the units of the headings."""
+        import pandas
+
+        cells = self.cells()
+        index = pandas.RangeIndex(1, len(cells.rows) + 1, name="run")
+        return pandas.DataFrame(cells.rows, index=index, columns=list(cells.columns))
+
+    def cells(self) -> Cells:
+        """The table, as far as rows were run."""
+        return cells_of(self.model, [(self.cohort.rows[i], self.found[i]) for i in sorted(self.found)])
+
+    def run(self, workplace: Workplace, listener: Listener) -> None:
+        """Run all rows, keep each as it ends, and leave the table and its figures.
+
+        What cannot be kept is `keeping.error`. Errors: ClusterError, with the rows before it kept; KeyboardInterrupt,
+        likewise.
+        """
+        hear, rows = listener.progress("rows"), self.cohort.rows
+        try:
+            for i, found in self._endings(workplace, listener):
+                self.found[i] = found
+                more = {"body": rows[i].body, "evaluations": found.evaluations, "values": dict(found.values)}
+                self.keeping.add(rows[i].settings, found.outcome, more)
+                hear(len(self.found), len(rows))
+        except BaseException:
+            self._close("interrupted")
+            raise
+        self._close("complete")
+        with self.keeping.noting():
+            self._draw()
+
+    def _endings(self, workplace: Workplace, listener: Listener) -> Iterator[tuple[int, Found]]:
+        """The rows that are not known yet, as they end."""
+        missing = [Candidate(0, i, (float(i),)) for i in range(len(self.cohort.rows)) if i not in self.found]
+        if not missing:
+            return
+        # A row may take as long as its whole search.
+        patience = replace(_PATIENCE, least=_PATIENCE.least * (1 + self.cohort.retune))
+        evaluator = workplace.evaluator(Task(self.bundle, self.mode, patience), listener.say)
+        try:
+            for evaluation, _, _ in evaluator(missing):
+                yield evaluation.candidate.index, _found(evaluation.verdict, self.model.simulate.step)
+        finally:
+            evaluator.close()
+
+    def _close(self, status: str) -> None:
+        """The rows in their order, and the table."""
+        places = {_key(row.body, row.settings): i for i, row in enumerate(self.cohort.rows)}
+        self.keeping.arrange(lambda row: places[_key(row["body"], row["settings"])])
+        if self.folder and self.found:
+            with self.keeping.noting():
+                write_cells(self.folder / _TABLE, self.cells())
+        self.keeping.close(status)
+
+    def _draw(self) -> None:
+        if self.folder is None:
+            return
+        from gaitsim.analysis.drawings.drawing import save
+        from gaitsim.analysis.searches.cohort import Outline, cohort_figures
+
+        found = [(row, self.found[i]) for i, row in enumerate(self.cohort.rows)]
+        rows = [Outline(row.body, row.settings, each.ending, dict(each.outcome.metrics)) for row, each in found]
+        try:
+            save(cohort_figures(rows, self.metrics, self.model.metrics), self.folder / "figures")
+        except OSError as error:
+            raise CannotSave(f"{self.folder}: a figure cannot be written ({error.strerror or error}).") from error
+
+
+def cohort_runs(opening: Opening, asked: Asked, mode: Mode, root: Path | None) -> CohortRuns:
+    """The rows of a cohort of what is opened; nothing is run yet.
+
+    root: where the result folder goes; None keeps nothing.
+    Errors: Usage, InvalidSpec (of the table: with every fault), InvalidComponent, BadResult, Untrusted.
+    """
+    asked.check()
+    if opening.names_result:
+        raise Usage(f"{opening.path} is a result; name a spec, or continue a cohort with --resume.")
+    source = opening.source()
+    devices = _devices(source, asked.vary)
+    source = replace(source, document=without(source.document, "study"))
+    model = source.model()
+    _check_metrics(asked.metrics, model)
+    _check_tunable(asked, model, opening.path)
+    bodies = bodies_in(asked.bodies, source, model)
+    seed = optimize_section(source.document).seed if asked.seed is None else asked.seed
+    cohort = Cohort(tuple(_crossed(bodies, devices, asked.bodies)), asked.retune, seed)
+    source = replace(source, more={COHORT: cohort.text()})
+    models = [model, *_models(source, cohort, bodies)]
+    more = {"cohort": {"bodies": str(asked.bodies), "metrics": list(asked.metrics)}}
+    keeping = Keeping(root, source, models, mode, more=more)
+    notices = [*dict.fromkeys([*source.notices, *model.notices])]
+    return CohortRuns(cohort, source.bundle(models), model, mode, asked.metrics, keeping, notices)
+
+
+def resumed_cohort(opening: Opening) -> CohortRuns:
+    """The cohort that a result began; what it has of it is not run again.
+
+    Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted, Locked, CannotSave.
+    """
+    if not opening.names_result:
+        rule = f"{opening.path} is a spec; name the result of the cohort that was begun"
+        raise Usage(f"--resume: {rule}, such as results/2026-11-22-walking-3f9c.")
+    if opening.settings or opening.folders:
+        raise Usage(f"--resume: {opening.path} goes on as it was begun; leave out --set and --library.")
+    source = opening.source()
+    manifest, bundle = read_result(opening.path)
+    cohort = cohort_of(bundle)
+    changed = changed_versions(manifest)
+    if changed:
+        rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
+        raise BadResult(f"{opening.path}: {rule}; install those, or begin anew.")
+    model, rows = source.model(), read_rows(opening.path, begun=True)
+    mode: Mode = "normal" if manifest["mode"] == "normal" else "rapid"
+    keeping = Keeping(None, replace(source, more={COHORT: bundle.files[COHORT]}), [model], mode)
+    metrics = [name for name in manifest.get("cohort", {}).get("metrics", []) if name in model.metrics]
+    runs = CohortRuns(cohort, bundle, model, mode, metrics, keeping)
+    places = {_key(row.body, row.settings): i for i, row in enumerate(cohort.rows)}
+    for row in rows:
+        place = places.get(_key(row.get("body"), row["settings"]))
+        if place is None:
+            rule = "a run in it is of no row of its cohort, so it was edited; restore it from a copy"
+            raise BadResult(Fault(f"{rule}.", Mark(str(opening.path / "evaluations.jsonl"))))
+        runs.found[place] = _recorded(row, model.simulate.step)
+    keeping.go_on(opening.path, rows)
+    runs.notices = [f"resuming {opening.path}: {len(rows)} of {len(cohort.rows)} rows are in it"]
+    return runs
+
+
+def _devices(source: Source, vary: Sequence[str]) -> list[dict[str, str]]:
+    """What is set of devices: the spec's own study combined with each --vary; one empty row if there is neither."""
+    rows = variants(source.document, vary)
+    return [*{_key("", row.settings): row.settings for row in rows}.values()]
+
+
+def _crossed(bodies: Sequence[Body], devices: Sequence[dict[str, str]], path: Path) -> Iterator[Row]:
+    """Every body with every device. Errors: InvalidSpec for what both of them set."""
+    both = [address for address in bodies[0].settings if any(address in device for device in devices)]
+    if both:
+        rule = f"{', '.join(both)} is a column here and varied as well; leave it out of one of them"
+        raise InvalidSpec(Fault(f"{rule}.", Mark(str(path))))
+    for body in bodies:
+        for device in devices:
+            yield Row(body.name, body.settings | device, body.place)
+
+
+def _models(source: Source, cohort: Cohort, bodies: Sequence[Body]) -> list[Model]:
+    """The models of each body and of each device, whose components the bundle must have.
+
+    Errors: InvalidSpec, InvalidComponent, from the first, if none is valid.
+    """
+    count = len(cohort.rows) // len(bodies)
+    models, faults = list[Model](), list[InvalidSpec | InvalidComponent]()
+    for i, row in enumerate(cohort.rows):
+        if i >= count and i % count:
+            continue
+        try:
+            models.append(source.model(row.document(source.document)))
+        except (InvalidSpec, InvalidComponent) as error:
+            faults.append(error)
+    if not models:
+        raise faults[0]
+    return models
+
+
+def _check_metrics(metrics: Sequence[str], model: Model) -> None:
+    """Errors: Usage for a metric that is to be drawn and is none."""
+    from gaitsim.errors import did_you_mean
+
+    for name in metrics:
+        if name not in model.metrics:
+            raise Usage(f"--metric {name}: there is no such metric. {did_you_mean(name, model.metrics)}")
+
+
+def _check_tunable(asked: Asked, model: Model, spec: Path) -> None:
+    """Errors: InvalidSpec if rows are to be tuned of a spec that cannot be."""
+    if asked.retune and not (model.free and model.objective):
+        lacks = "nothing is tuned in this spec" if model.objective else "this spec has no objective"
+        raise InvalidSpec(Fault(f"{lacks}, so no row can be tuned again; leave out --retune.", Mark(str(spec))))
+
+
+def _key(body: Any, settings: Mapping[str, str]) -> str:
+    return repr((body, sorted(settings.items())))
+
+
+def _found(verdict: Verdict, step: float) -> Found:
+    metrics = {name: math.nan if value is None else value for name, value in verdict.metrics.items()}
+    outcome = Outcome(verdict.status, verdict.reason, verdict.steps, step, metrics, verdict.score, 0.0)
+    if isinstance(verdict, RowVerdict):
+        return Found(outcome, verdict.evaluations, verdict.values)
+    return Found(outcome)
+
+
+def _recorded(row: Mapping[str, Any], step: float) -> Found:
+    metrics = {name: math.nan if value is None else float(value) for name, value in row["metrics"].items()}
+    outcome = Outcome(row["status"], row["reason"], row["steps"], step, metrics, row["score"], 0.0)
+    return Found(outcome, int(row.get("evaluations", 0)), dict(row.get("values", {})))
