@@ -18,7 +18,7 @@ from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.simulation.starting import start_doubts
 from gaitsim.spec.resolve import resolve
 from gaitsim.spec.schema import optimize_section
-from gaitsim.text.document import Mapping as Document
+from gaitsim.text.document import MappingNode
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Rows:
     """The rows of a bundle. A candidate is the number of one, from 0."""
 
     cohort: Cohort
-    document: Document
+    document: MappingNode
     library: Library
     name: str
     starts: Mapping[str, float]

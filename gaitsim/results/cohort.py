@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from gaitsim.errors import Fault, Mark
 from gaitsim.results.bundle import COHORT, BadResult, Bundle
 from gaitsim.spec.inheritance import override
-from gaitsim.text.document import Mapping
+from gaitsim.text.document import MappingNode
 
 
 @dataclass(frozen=True)
@@ -24,7 +24,7 @@ class Row:
     settings: dict[str, str]
     place: str
 
-    def document(self, spec: Mapping) -> Mapping:
+    def document(self, spec: MappingNode) -> MappingNode:
         """The spec of this row. Errors: InvalidSpec, Usage, at the place where the body is written."""
         for address, text in self.settings.items():
             spec = override(spec, address, text, self.place)

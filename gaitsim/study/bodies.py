@@ -12,8 +12,8 @@ from pathlib import Path
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, Usage, did_you_mean
 from gaitsim.model import Model
 from gaitsim.spec.inheritance import override
-from gaitsim.study.source import Source
-from gaitsim.text.document import Mapping
+from gaitsim.study.opened import Opened
+from gaitsim.text.document import MappingNode
 from gaitsim.text.quantity import BadQuantity, quantity_of
 from gaitsim.units import UnknownUnit, parse_unit
 
@@ -46,7 +46,7 @@ class _Column:
     mark: Mark
 
 
-def bodies_in(path: Path, source: Source, model: Model) -> list[Body]:
+def bodies_in(path: Path, opened: Opened, model: Model) -> list[Body]:
     """The bodies of a table, checked against the spec that they are to change.
 
     model: of the spec as it is. What one body alone cannot be, such as a mass of 0, is not asked here.
@@ -57,7 +57,7 @@ def bodies_in(path: Path, source: Source, model: Model) -> list[Body]:
     (first, heading), *rows = lines
     columns = _columns(heading, Mark(str(path), first), faults)
     faults.raise_if_any()
-    known = _known(columns, rows, path, source, model, faults)
+    known = _known(columns, rows, path, opened, model, faults)
     bodies = []
     for number, (line, cells) in enumerate(rows, start=1):
         mark = Mark(str(path), line)
@@ -130,7 +130,7 @@ def _known(
     columns: Sequence[_Column],
     rows: Sequence[tuple[int, list[str]]],
     path: Path,
-    source: Source,
+    opened: Opened,
     model: Model,
     faults: Faults,
 ) -> dict[str, str]:
@@ -155,7 +155,7 @@ def _known(
             faults.add(_undeclared(column), column.mark, column.heading)
         else:
             texts = [cells[index] for _, cells in rows if len(cells) == len(columns)]
-            _try(column, texts[0] if texts else "1", path, source, faults)
+            _try(column, texts[0] if texts else "1", path, opened, faults)
     return found
 
 
@@ -169,17 +169,17 @@ def _undeclared(column: _Column) -> str:
     return f"{rule}; declare it under parameters: and use it as {_SHIPPED} does, or leave the column out."
 
 
-def _try(column: _Column, text: str, path: Path, source: Source, faults: Faults) -> None:
+def _try(column: _Column, text: str, path: Path, opened: Opened, faults: Faults) -> None:
     """Whether a column that is no number is something else in the spec, such as a use:."""
     words = ", ".join([_NAME, *_BODY])
     if "." not in column.address:
-        parameters = source.document.entries.get("parameters")
-        own = parameters.entries if isinstance(parameters, Mapping) else {}
+        parameters = opened.document.entries.get("parameters")
+        own = parameters.entries if isinstance(parameters, MappingNode) else {}
         rule = f"neither a column of bodies ({words}) nor a parameter of this spec"
         faults.add(f"{rule}. {did_you_mean(column.heading, [_NAME, *_BODY, *own])}", column.mark, column.heading)
         return
     try:
-        source.model(override(source.document, column.address, text or "null", str(path)))
+        opened.model(override(opened.document, column.address, text or "null", str(path)))
     except (InvalidSpec, Usage) as error:
         rule = " ".join(dict.fromkeys(fault.message for fault in error.faults))
         faults.add(f"no column of bodies ({words}), and in the spec: {rule}", column.mark, column.heading)

@@ -27,8 +27,8 @@ from gaitsim.study.bodies import Body, bodies_in
 from gaitsim.study.cohort_table import Cells, cells_of, write_cells
 from gaitsim.study.keeping import Keeping
 from gaitsim.study.listening import Listener
+from gaitsim.study.opened import Opened
 from gaitsim.study.opening import Opening
-from gaitsim.study.source import Source
 from gaitsim.study.workplace import Task, Workplace
 
 if TYPE_CHECKING:
@@ -185,21 +185,21 @@ def cohort_runs(opening: Opening, asked: Asked, mode: Mode, root: Path | None) -
     asked.check()
     if opening.names_result:
         raise Usage(f"{opening.path} is a result; name a spec, or continue a cohort with --resume.")
-    source = opening.source()
-    devices = _devices(source, asked.vary)
-    source = replace(source, document=without(source.document, "study"))
-    model = source.model()
+    opened = opening.open()
+    devices = _devices(opened, asked.vary)
+    opened = replace(opened, document=without(opened.document, "study"))
+    model = opened.model()
     _check_metrics(asked.metrics, model)
     _check_tunable(asked, model, opening.path)
-    bodies = bodies_in(asked.bodies, source, model)
-    seed = optimize_section(source.document).seed if asked.seed is None else asked.seed
+    bodies = bodies_in(asked.bodies, opened, model)
+    seed = optimize_section(opened.document).seed if asked.seed is None else asked.seed
     cohort = Cohort(tuple(_crossed(bodies, devices, asked.bodies)), asked.retune, seed)
-    source = replace(source, more={COHORT: cohort.text()})
-    models = [model, *_models(source, cohort, bodies)]
+    opened = replace(opened, more={COHORT: cohort.text()})
+    models = [model, *_models(opened, cohort, bodies)]
     more = {"cohort": {"bodies": str(asked.bodies), "metrics": list(asked.metrics)}}
-    keeping = Keeping(root, source, models, mode, more=more)
-    notices = [*dict.fromkeys([*source.notices, *model.notices])]
-    return CohortRuns(cohort, source.bundle(models), model, mode, asked.metrics, keeping, notices)
+    keeping = Keeping(root, opened, models, mode, more=more)
+    notices = [*dict.fromkeys([*opened.notices, *model.notices])]
+    return CohortRuns(cohort, opened.bundle(models), model, mode, asked.metrics, keeping, notices)
 
 
 def resumed_cohort(opening: Opening) -> CohortRuns:
@@ -212,16 +212,16 @@ def resumed_cohort(opening: Opening) -> CohortRuns:
         raise Usage(f"--resume: {rule}, such as results/2026-11-22-walking-3f9c.")
     if opening.settings or opening.folders:
         raise Usage(f"--resume: {opening.path} goes on as it was begun; leave out --set and --library.")
-    source = opening.source()
+    opened = opening.open()
     manifest, bundle = read_result(opening.path)
     cohort = cohort_of(bundle)
     changed = changed_versions(manifest)
     if changed:
         rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
         raise BadResult(f"{opening.path}: {rule}; install those, or begin anew.")
-    model, rows = source.model(), read_rows(opening.path, begun=True)
+    model, rows = opened.model(), read_rows(opening.path, begun=True)
     mode: Mode = "normal" if manifest["mode"] == "normal" else "rapid"
-    keeping = Keeping(None, replace(source, more={COHORT: bundle.files[COHORT]}), [model], mode)
+    keeping = Keeping(None, replace(opened, more={COHORT: bundle.files[COHORT]}), [model], mode)
     metrics = [name for name in manifest.get("cohort", {}).get("metrics", []) if name in model.metrics]
     runs = CohortRuns(cohort, bundle, model, mode, metrics, keeping)
     places = {_key(row.body, row.settings): i for i, row in enumerate(cohort.rows)}
@@ -236,9 +236,9 @@ def resumed_cohort(opening: Opening) -> CohortRuns:
     return runs
 
 
-def _devices(source: Source, vary: Sequence[str]) -> list[dict[str, str]]:
+def _devices(opened: Opened, vary: Sequence[str]) -> list[dict[str, str]]:
     """What is set of devices: the spec's own study combined with each --vary; one empty row if there is neither."""
-    rows = variants(source.document, vary)
+    rows = variants(opened.document, vary)
     return [*{_key("", row.settings): row.settings for row in rows}.values()]
 
 
@@ -253,7 +253,7 @@ def _crossed(bodies: Sequence[Body], devices: Sequence[dict[str, str]], path: Pa
             yield Row(body.name, body.settings | device, body.place)
 
 
-def _models(source: Source, cohort: Cohort, bodies: Sequence[Body]) -> list[Model]:
+def _models(opened: Opened, cohort: Cohort, bodies: Sequence[Body]) -> list[Model]:
     """The models of each body and of each device, whose components the bundle must have.
 
     Errors: InvalidSpec, InvalidComponent, from the first, if none is valid.
@@ -264,7 +264,7 @@ def _models(source: Source, cohort: Cohort, bodies: Sequence[Body]) -> list[Mode
         if i >= count and i % count:
             continue
         try:
-            models.append(source.model(row.document(source.document)))
+            models.append(opened.model(row.document(opened.document)))
         except (InvalidSpec, InvalidComponent) as error:
             faults.append(error)
     if not models:

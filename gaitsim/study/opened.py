@@ -40,7 +40,9 @@ class Opened:
     origin: str = ""
     place: Path = Path()
     more: Mapping[str, str] = field(default_factory=dict)
-    _resolved: dict[int, tuple[MappingNode, Model]] = field(default_factory=dict, repr=False)  # by the id of the document
+    _resolved: dict[int, tuple[MappingNode, Model]] = field(
+        default_factory=dict, repr=False
+    )  # by the id of the document
 
     def model(self, document: MappingNode | None = None) -> Model:
         """The model of the document, which is resolved once, or of a variant of it."""
