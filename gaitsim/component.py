@@ -102,8 +102,9 @@ class Frame:
 class Input:
     """A signal that comes in. `sums`: any number of senders (`to:`); else one (`from:`).
 
-    usual, possible: as of an output. like: the series, if there is one, whose unit must fit that of a signal that an
-    input of the unit `*` takes.
+    Attributes:
+        usual, possible: As of an output.
+        like: The series, if there is one, whose unit must fit that of a signal that an input of the unit `*` takes.
     """
 
     unit: str
@@ -119,10 +120,10 @@ class Input:
 class Output:
     """A signal that goes out.
 
-    usual: where it is when a run starts, as a rule; a start elsewhere is warned of.
-    possible: where it can be at all; a start elsewhere is refused.
-    Both are a low and a high end: numbers in `unit`, or expressions of parameters in SI, such as
-    "upper + 0.1" of an angle.
+    Attributes:
+        usual: Where it is when a run starts, as a rule; a start elsewhere is warned of.
+        possible: Where it can be at all; a start elsewhere is refused. Both are a low and a high end: numbers in
+            `unit`, or expressions of parameters in SI, such as "upper + 0.1" of an angle.
     """
 
     unit: str
@@ -135,7 +136,8 @@ class Output:
 class State:
     """What is remembered between steps: a number, `size` numbers, or one of named `levels`.
 
-    usual, possible: of one number, as of an output.
+    Attributes:
+        usual, possible: Of one number, as of an output.
     """
 
     unit: str = "1"
@@ -150,8 +152,10 @@ class State:
 class Metric:
     """A number that a measure reports after the run. One named `value` bears the measure's own name.
 
-    unit: `*` for that of the signal that is measured. like: the series whose unit it has instead, if it is one
-    of the same quantity: then both are in deg, although a joint's angle is in rad.
+    Attributes:
+        unit: `*` for that of the signal that is measured.
+        like: The series whose unit it has instead, if it is one of the same quantity: then both are in deg, although a
+            joint's angle is in rad.
     """
 
     unit: str
@@ -163,11 +167,12 @@ class Metric:
 class Part:
     """A part inside this one, such as a muscle's path; a spec swaps it with `use:`.
 
-    reads: this part's input <- the inner part's output.
-    sends: the inner part's input <- this part's input or output.
-    gives: the inner part's parameter, if it has it and a spec does not set it <- an expression of
-        this part's parameters.
-    optional: it is there only if a spec says so.
+    Attributes:
+        reads: This part's input <- the inner part's output.
+        sends: The inner part's input <- this part's input or output.
+        gives: The inner part's parameter, if it has it and a spec does not set it <- an expression of this part's
+            parameters.
+        optional: It is there only if a spec says so.
     """
 
     kind: str
@@ -183,8 +188,9 @@ class Part:
 class Link:
     """Connections with another part that a spec makes by its name alone, such as `joint: ankle`.
 
-    reads: this part's input <- the other part's output.
-    sends: the other part's input <- this part's output.
+    Attributes:
+        reads: This part's input <- the other part's output.
+        sends: The other part's input <- this part's output.
     """
 
     doc: str
@@ -208,14 +214,15 @@ class StepLimit:
 class Curve:
     """A graph of the component alone, which `gaitsim library show --plot` draws.
 
-    of: an output, or a function of this file.
-    over: an input, a state, an output that MuJoCo sets, an argument of the function, or "time".
-    span: the range of `over`, in its unit.
-    at: values of what else is read, by name, in their units; a word is the name of a parameter.
-    each: a name and its values, one line for each.
-    steps: inputs over time: the values that each takes one after the other, for equal times.
-    unit, over_unit: of what a function gives and of its argument.
-    inverse: the axes are exchanged.
+    Attributes:
+        of: An output, or a function of this file.
+        over: An input, a state, an output that MuJoCo sets, an argument of the function, or "time".
+        span: The range of `over`, in its unit.
+        at: Values of what else is read, by name, in their units; a word is the name of a parameter.
+        each: A name and its values, one line for each.
+        steps: Inputs over time: the values that each takes one after the other, for equal times.
+        unit, over_unit: Of what a function gives and of its argument.
+        inverse: The axes are exchanged.
     """
 
     of: str

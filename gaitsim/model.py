@@ -20,7 +20,8 @@ TERMS = "terms"  # the input of an objective that the costs of its terms are add
 class Number:
     """One number of the model: fixed, free (tuned), or computed from numbers before it.
 
-    unit: the one it is written in outside; inside, its value is in SI.
+    Attributes:
+        unit: The one it is written in outside; inside, its value is in SI.
     """
 
     address: str
@@ -37,7 +38,8 @@ class Number:
 class Free:
     """A tuned number: bounds, start and spread in SI, and every address it drives.
 
-    unit: the one it is written in outside.
+    Attributes:
+        unit: The one it is written in outside.
     """
 
     address: str
@@ -79,7 +81,9 @@ class Recording:
 class Part:
     """One primitive in its place.
 
-    attachments: the frame, or the body, that each is on; places: of those that lie beside it, where.
+    Attributes:
+        attachments: The frame, or the body, that each is on.
+        places: Of those that lie beside it, where.
     """
 
     address: str
@@ -143,7 +147,9 @@ class Signal:
 class KnownValue:
     """A metric's value that is known from elsewhere, in SI, and how far from it counts as the same.
 
-    unit: the one it is written in outside. tolerance: None where nothing is said.
+    Attributes:
+        unit: The one it is written in outside.
+        tolerance: None where nothing is said.
     """
 
     what: str
@@ -224,7 +230,8 @@ class Model:
     def values(self, candidate: Sequence[float] | None = None) -> list[float]:
         """Every number for a candidate: the values of `free`, in its order.
 
-        Errors: SimulationFailed if an expression has no value there.
+        Raises:
+            SimulationFailed: An expression has no value there.
         """
         chosen = self.start if candidate is None else candidate
         values = [*self._fixed]

@@ -191,7 +191,8 @@ def _coherent(word: str) -> str:
 def parse_unit(text: str) -> Unit:
     """The unit that a text names: N, kg m^2, m/s^2, deg/s, %, 1; `*` leaves it open.
 
-    Errors: UnknownUnit.
+    Raises:
+        UnknownUnit: The text is not a unit.
     """
     if text in ("", "1"):
         return Unit("1", 1.0, Dimension())
@@ -282,7 +283,11 @@ _SPELLINGS: dict[str, tuple[str, float]] = {
 
 
 def _named(word: str) -> _Scaled:
-    """A unit by one word, such as kN, degree or 1. Errors: LookupError."""
+    """A unit by one word, such as kN, degree or 1.
+
+    Raises:
+        LookupError: There is no such unit.
+    """
     if word == "1":
         return 1.0, Dimension()
     symbol, prefix = _SPELLINGS[word]
@@ -313,7 +318,8 @@ class Quantity:
 def parse_quantity(text: str | float) -> Quantity | None:
     """The quantity a text names, such as "30 deg"; None if it does not begin with a number.
 
-    Errors: UnknownUnit with the unit's text.
+    Raises:
+        UnknownUnit: With the unit's text.
     """
     if isinstance(text, int | float):
         return Quantity(float(text), parse_unit("1"))

@@ -20,8 +20,11 @@ def draft_of(path: Path) -> Path:
 def whole(path: Path, draft: Path | None = None) -> Iterator[Path]:
     """The draft of a file, which takes its place at the end of the block.
 
-    draft: one of a name of its own, where several processes may write the same file.
-    Errors: OSError, with no draft left behind and what stood there before as it was.
+    Args:
+        draft: One of a name of its own, where several processes may write the same file.
+
+    Raises:
+        OSError: With no draft left behind and what stood there before as it was.
     """
     beside = draft or draft_of(path)
     try:
@@ -34,12 +37,20 @@ def whole(path: Path, draft: Path | None = None) -> Iterator[Path]:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a text as a whole. Errors: OSError, with what stood there before as it was."""
+    """Write a text as a whole.
+
+    Raises:
+        OSError: With what stood there before as it was.
+    """
     with whole(path) as draft:
         draft.write_text(text, encoding="utf-8")
 
 
 def onto_disk(file: IO[str] | IO[bytes]) -> None:
-    """Make sure that what was written is on the disk, so that a crash of the machine leaves it. Errors: OSError."""
+    """Make sure that what was written is on the disk, so that a crash of the machine leaves it.
+
+    Raises:
+        OSError: The file cannot be read or written.
+    """
     file.flush()
     os.fsync(file.fileno())

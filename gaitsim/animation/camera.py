@@ -24,7 +24,9 @@ _ROOM = 0.3  # of the body's height: the longest force arrow
 class Views:
     """The point that is looked at for each frame (frames x 3, m), and how far away the camera stands (m).
 
-    newtons: what an arrow of one metre stands for. view: a name of `VIEWS`.
+    Attributes:
+        newtons: What an arrow of one metre stands for.
+        view: A name of `VIEWS`.
     """
 
     points: Floats
@@ -65,7 +67,8 @@ def follow(
 ) -> Views:
     """Views of the given instants, `spacing` seconds apart, for a picture `aspect` times as wide as high.
 
-    words: the parts of its height that are written on, above and below; the body stays between them.
+    Args:
+        words: The parts of its height that are written on, above and below; the body stays between them.
     """
     right, away = _axes(view)
     above, below = max(_ABOVE, words[0]), max(_BELOW, words[1])

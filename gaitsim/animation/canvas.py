@@ -32,7 +32,11 @@ class Canvas:
         self._painter: Any = None
 
     def __enter__(self) -> Canvas:
-        """Errors: NoOpenGL."""
+        """Make OpenGL ready.
+
+        Raises:
+            NoOpenGL: OpenGL does not work here.
+        """
         self._opengl.__enter__()
         self._painter = self._opengl.painter(self.posture.stage.mechanics)
         return self

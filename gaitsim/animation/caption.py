@@ -18,8 +18,10 @@ Pixels = NDArray[np.uint8]
 class Caption:
     """The words on pictures of one size, in pixels.
 
-    newtons: what an arrow of a metre stands for; None without arrows. metre: its length in pixels.
-    ending: how the run was stopped, from a time in s on; empty if it was not.
+    Attributes:
+        newtons: What an arrow of a metre stands for; None without arrows.
+        metre: Its length in pixels.
+        ending: How the run was stopped, from a time in s on; empty if it was not.
     """
 
     name: str

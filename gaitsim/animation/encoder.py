@@ -21,8 +21,10 @@ _COLOURS = 256
 class Encoder:
     """Writes frames into a file that is complete or absent.
 
-    rate: frames in a second. size: width and height in pixels. sample: for a GIF, pixels with
-    all the colours that it must show.
+    Args:
+        rate: Frames in a second.
+        size: Width and height in pixels.
+        sample: For a GIF, pixels with all the colours that it must show.
     """
 
     def __init__(self, path: Path, rate: float, size: tuple[int, int], sample: Pixels | None = None) -> None:
@@ -34,7 +36,11 @@ class Encoder:
         self._palette: Path | None = None
 
     def __enter__(self) -> Encoder:
-        """Errors: CannotAnimate."""
+        """Start ffmpeg.
+
+        Raises:
+            CannotAnimate: The model cannot be drawn.
+        """
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             self._said = tempfile.TemporaryFile()
@@ -47,7 +53,11 @@ class Encoder:
         return self
 
     def add(self, frame: Pixels) -> None:
-        """One more frame: height x width x 3. Errors: CannotAnimate, such as a full disk."""
+        """One more frame: height x width x 3.
+
+        Raises:
+            CannotAnimate: Such as a full disk.
+        """
         try:
             self._process.stdin.write(np.ascontiguousarray(frame).data)
         except OSError as error:
@@ -56,7 +66,11 @@ class Encoder:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
-        """Errors: CannotAnimate."""
+        """End ffmpeg, and remove what is not complete.
+
+        Raises:
+            CannotAnimate: The model cannot be drawn.
+        """
         try:
             with contextlib.suppress(OSError):
                 self._process.stdin.close()

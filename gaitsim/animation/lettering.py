@@ -19,7 +19,8 @@ INK = (30, 34, 40)
 class Words:
     """A line of text at a place in pixels from the left and the top, where its `anchor` is; size in pixels.
 
-    anchor: l, m or r (left, middle, right) and a, m or s (top, middle, baseline).
+    Attributes:
+        anchor: L, m or r (left, middle, right) and a, m or s (top, middle, baseline).
     """
 
     text: str

@@ -28,7 +28,8 @@ _NO_DEVICES = 0
 def backend() -> str:
     """Which OpenGL draws: egl, osmesa, glfw or cgl.
 
-    Errors: NoOpenGL, naming the system's package that is missing.
+    Raises:
+        NoOpenGL: Naming the system's package that is missing.
     """
     known = _ORDER.get(sys.platform, ("glfw",))
     wanted = os.environ.get("MUJOCO_GL", "").lower().strip()
@@ -96,7 +97,11 @@ class OpenGL:
         self._context: Any = None
 
     def __enter__(self) -> OpenGL:
-        """Errors: NoOpenGL if the library is there and yet does not work."""
+        """Make the OpenGL context current.
+
+        Raises:
+            NoOpenGL: The library is there and yet does not work.
+        """
         try:
             self._context = importlib.import_module(f"mujoco.{self._name}").GLContext(*self._size)
             self._context.make_current()

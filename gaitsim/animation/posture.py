@@ -19,7 +19,11 @@ class Posture:
     """MuJoCo's data of a stage, at one recorded instant after the other."""
 
     def __init__(self, stage: Stage, trajectory: Trajectory) -> None:
-        """Errors: CannotAnimate if nothing was recorded."""
+        """Tie every joint coordinate to a recorded signal.
+
+        Raises:
+            CannotAnimate: Nothing was recorded.
+        """
         if len(trajectory.times) == 0:
             raise CannotAnimate("no motion was recorded, so there is nothing to show; see why the run failed.")
         self.stage, self.trajectory = stage, trajectory

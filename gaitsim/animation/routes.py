@@ -32,8 +32,11 @@ _UNSEEN = (0, 0, 0, 0)
 class _Hinge:
     """A hinge in the neutral posture, in the world, and how a path passes it.
 
-    upwards, onwards: unit vectors along the carrying and the carried body, zero without a way. reach: to the
-    carrying body's center. beside: from the axis to the path. outside: along the axis. In m.
+    Attributes:
+        upwards, onwards: Unit vectors along the carrying and the carried body, zero without a way.
+        reach: To the carrying body's center.
+        beside: From the axis to the path.
+        outside: Along the axis. In m.
     """
 
     carrier: int

@@ -18,7 +18,8 @@ _FORCES = 2
 def chosen(model: Model, patterns: Sequence[str]) -> list[Signal]:
     """The signals of addresses and patterns, in their order, each once.
 
-    Errors: NoSuchSignal.
+    Raises:
+        NoSuchSignal: No run has such a signal.
     """
     found = [signal for pattern in patterns for signal in matching(model, pattern)]
     return list({signal.address: signal for signal in found}.values())

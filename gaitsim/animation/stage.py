@@ -51,7 +51,8 @@ class Line:
 class Force:
     """A force on a spot: its signals in N forwards, upwards and to the left, and the part that it belongs to.
 
-    axes: what is forwards, what is to the left and what is upwards there, in the world.
+    Attributes:
+        axes: What is forwards, what is to the left and what is upwards there, in the world.
     """
 
     part: str
@@ -66,7 +67,9 @@ class Force:
 class Stage:
     """MuJoCo's model for looking, and which signals it takes.
 
-    coordinates: place in qpos and signal. muscles: tendon and the signal of its activation.
+    Attributes:
+        coordinates: Place in qpos and signal.
+        muscles: Tendon and the signal of its activation.
     """
 
     mechanics: Any
@@ -79,7 +82,10 @@ class Stage:
 def stage_of(model: Model, wide: bool = False) -> Stage:
     """The stage of a model at the values that it starts with; `wide`: with ground on both sides of the way.
 
-    Errors: CannotAnimate if a joint's coordinate is in no output; InvalidSpec, SimulationFailed.
+    Raises:
+        CannotAnimate: A joint's coordinate is in no output.
+        InvalidSpec: The spec breaks a rule.
+        SimulationFailed: The candidate fails.
     """
     assembly = assemble(model, model.values())
     spec = assembly.spec

@@ -35,9 +35,13 @@ _SWATCH = 100  # rows of pixels
 class VideoOptions:
     """How a video is made.
 
-    speed: seconds of motion in a second of video. rate: frames in a second; a GIF's is rounded to
-    what GIFs can have. size: width and height in pixels, made even. scopes: addresses or patterns of
-    signals; none for the usual ones. begin, end: times of the motion, in s. view: from where, a name of `VIEWS`.
+    Attributes:
+        speed: Seconds of motion in a second of video.
+        rate: Frames in a second; a GIF's is rounded to what GIFs can have.
+        size: Width and height in pixels, made even.
+        scopes: Addresses or patterns of signals; none for the usual ones.
+        begin, end: Times of the motion, in s.
+        view: From where, a name of `VIEWS`.
     """
 
     speed: float = 1.0
@@ -52,7 +56,11 @@ class VideoOptions:
 def record(replay: Replay, path: Path, options: VideoOptions | None = None, progress: Progress | None = None) -> Path:
     """Write the video of a run, as MP4 or GIF by the path's ending; `progress` hears of frames done, and of how many.
 
-    Errors: NoOpenGL, CannotAnimate, NoSuchSignal, Usage.
+    Raises:
+        NoOpenGL: OpenGL does not work here.
+        CannotAnimate: The model cannot be drawn.
+        NoSuchSignal: No run has such a signal.
+        Usage: The request does not fit.
     """
     film = _Film(replay, path, options or VideoOptions())
     with ExitStack() as stack:
@@ -123,7 +131,11 @@ def _ending(replay: Replay, speed: float) -> tuple[str, float]:
 
 
 def read_size(text: str) -> tuple[int, int]:
-    """Width and height of a text such as 1280x720. Errors: Usage."""
+    """Width and height of a text such as 1280x720.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     width, _, height = text.lower().partition("x")
     if not (width.isdecimal() and height.isdecimal()):
         raise Usage(f"--size {text}: width x height in pixels, such as 1280x720.")

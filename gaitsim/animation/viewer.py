@@ -28,7 +28,11 @@ _KEYS = "space\nleft, right\nup, down\nhome", "pause\nstep\nfaster, slower\nfrom
 def view(replay: Replay, speed: float = 1.0, paused: bool = False) -> None:
     """Show a run until the window is closed; `speed` in seconds of motion a second.
 
-    Call `check_display` before. Errors: CannotAnimate, NoDisplay.
+    Call `check_display` before.
+
+    Raises:
+        CannotAnimate: The model cannot be drawn.
+        NoDisplay: There is no display.
     """
     show = Show(replay, speed, paused)
     from mujoco import viewer
@@ -55,7 +59,11 @@ def view(replay: Replay, speed: float = 1.0, paused: bool = False) -> None:
 
 
 def check_display(path: Path) -> None:
-    """Errors: NoDisplay, with the next move for the spec or result."""
+    """Refuse to open a window where there is no display.
+
+    Raises:
+        NoDisplay: With the next move for the spec or result.
+    """
     move = f"make a video instead: {command('analyze', path)}"
     if not has_display():
         raise NoDisplay(f"there is no display for a window; {move}")

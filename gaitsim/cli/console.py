@@ -32,7 +32,10 @@ def rewrite(text: str) -> None:
 def progress(what: str, quiet: bool = False) -> Callable[[int, int], None]:
     """What hears of steps done, and of how many, and shows them in one line.
 
-    On a terminal the line is rewritten; elsewhere there is a new one every few seconds. quiet: none there.
+    On a terminal the line is rewritten; elsewhere there is a new one every few seconds.
+
+    Args:
+        quiet: None there.
     """
     terminal, said = sys.stderr.isatty(), time.monotonic()
 
@@ -73,7 +76,11 @@ def waiting(what: str, quiet: bool = False) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Talk:
-    """What a study says, on stderr. quiet: no lines of progress where that is no terminal."""
+    """What a study says, on stderr.
+
+    Attributes:
+        quiet: No lines of progress where that is no terminal.
+    """
 
     quiet: bool = False
 

@@ -220,7 +220,11 @@ def _drawn(component: ComponentFile, settings: list[str], folder: Path) -> Path 
 
 
 def _values(component: ComponentFile, settings: list[str]) -> dict[str, float]:
-    """Parameters in SI, from NAME=VALUE. Errors: Usage."""
+    """Parameters in SI, from NAME=VALUE.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     from gaitsim.errors import Faults, Usage, did_you_mean
     from gaitsim.spec.inheritance import split_setting
     from gaitsim.text.document import parse_value

@@ -143,7 +143,11 @@ def _ran(words: list[str]) -> object:
 
 
 def _check_words(words: list[str]) -> None:
-    """Errors: Usage for a word that is no text, and for a folder that is gone."""
+    """Refuse command lines that cannot be used.
+
+    Raises:
+        Usage: A word that is no text, and for a folder that is gone.
+    """
     for word in words:
         try:
             word.encode("utf-8")

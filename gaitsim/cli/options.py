@@ -66,7 +66,11 @@ def opening(
     candidate: str | None = None,
     results: Path | None = None,
 ) -> Opening:
-    """What a command is about, as its options say. results: the folder in which a result's name is looked up."""
+    """What a command is about, as its options say.
+
+    Args:
+        results: The folder in which a result's name is looked up.
+    """
     from gaitsim.results.manifest import result_named
 
     named = result_named(path, results)

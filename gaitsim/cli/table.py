@@ -13,7 +13,8 @@ _LEAST = 4  # letters of a column, however narrow the terminal is
 def rows_of(columns: Sequence[str], rows: Sequence[Sequence[str]], width: int | None = None) -> Iterator[list[str]]:
     """The lines of the heading and of each row of a table; a cell may have several lines.
 
-    width: of the terminal, within which long cells are folded; None folds nothing.
+    Args:
+        width: Of the terminal, within which long cells are folded; None folds nothing.
     """
     cells = [[cell.expandtabs().splitlines() or [""] for cell in row] for row in (columns, *rows)]
     widths = [max(_width(line) for cell in column for line in cell) for column in zip(*cells, strict=True)]

@@ -21,7 +21,8 @@ _ADDRESS = re.compile(r"(?:(?P<scheme>tcp|tls)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[
 def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Callable[[str], None]) -> Any:
     """A client of a scheduler that already runs.
 
-    Errors: ClusterError.
+    Raises:
+        ClusterError: The cluster fails or cannot be reached.
     """
     from distributed import Client
 
@@ -44,7 +45,11 @@ def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Calla
 
 
 def _address_in(file: Path) -> str:
-    """The address in a scheduler file. Errors: ClusterError."""
+    """The address in a scheduler file.
+
+    Raises:
+        ClusterError: The cluster fails or cannot be reached.
+    """
     move = f"start a scheduler that writes it: dask scheduler --scheduler-file {file}"
     if not file.is_file():
         raise ClusterError(f"{file}: there is no such scheduler file; {move}.")
@@ -55,7 +60,11 @@ def _address_in(file: Path) -> str:
 
 
 def _parts(address: str, place: str) -> tuple[str, str, int]:
-    """Scheme, host and port of an address. Errors: ClusterError."""
+    """Scheme, host and port of an address.
+
+    Raises:
+        ClusterError: The cluster fails or cannot be reached.
+    """
     found = _ADDRESS.fullmatch(address)
     if found is None or not 0 < int(found["port"]) < 65536:
         named = "" if place == address else f" {address}"
@@ -65,7 +74,11 @@ def _parts(address: str, place: str) -> tuple[str, str, int]:
 
 
 def _check_answer(host: str, port: int, place: str) -> None:
-    """Someone listens there. Dask would try again and again. Errors: ClusterError."""
+    """Someone listens there. Dask would try again and again.
+
+    Raises:
+        ClusterError: The cluster fails or cannot be reached.
+    """
     try:
         socket.create_connection((host.strip("[]"), port), timeout=_PATIENCE).close()
     except OSError as error:
@@ -75,7 +88,11 @@ def _check_answer(host: str, port: int, place: str) -> None:
 
 
 def _check_protocol(address: str, place: str) -> None:
-    """Who listens speaks Dask. A client that finds out by itself may never come back. Errors: ClusterError."""
+    """Who listens speaks Dask. A client that finds out by itself may never come back.
+
+    Raises:
+        ClusterError: The cluster fails or cannot be reached.
+    """
     from distributed import Security
     from distributed.comm import connect
 

@@ -57,7 +57,13 @@ def _ended(outcomes: Sequence[Outcome]) -> tuple[str, str]:
 
 
 def bundle_episodes(bundle: Bundle, mode: Mode) -> Episodes:
-    """The episodes of a bundle. Errors: InvalidSpec, InvalidComponent, BadResult."""
+    """The episodes of a bundle.
+
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
+        BadResult: The folder is not a result, or the result is damaged.
+    """
     document, starts = bundle.document(), bundle.starts()
     models = [model.started_at(starts) for model in episode_models(document, bundle.library(), bundle.name)]
     return Episodes(tuple(Simulator(model, mode) for model in models), optimize_section(document).combine)
@@ -66,7 +72,8 @@ def bundle_episodes(bundle: Bundle, mode: Mode) -> Episodes:
 def episode_models(document: MappingNode, library: Library, name: str) -> list[Model]:
     """The model of each episode; of the spec as it is, if it has none.
 
-    Errors: InvalidSpec, also for an episode that changes what is tuned.
+    Raises:
+        InvalidSpec: Also for an episode that changes what is tuned.
     """
     rows = episodes(document)
     models = [resolve(row.document, library, name) for row in rows]

@@ -39,7 +39,9 @@ _runners: dict[tuple[str, str], EpisodeRunner] = {}
 def runner_of(bundle: Bundle, mode: Mode) -> EpisodeRunner:
     """The runner of a bundle, made from the bundle's own texts and nothing else.
 
-    Errors: InvalidSpec, InvalidComponent.
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
     """
     key = (bundle.digest, mode)
     if key not in _runners:

@@ -101,7 +101,11 @@ class Parallel:
             waiting |= {self._submit(chunk, finished): chunk for chunk in again}
 
     def _next(self, finished: Queue[Any]) -> Any:
-        """The next future that is done. Errors: ClusterError if no worker has been there for long."""
+        """The next future that is done.
+
+        Raises:
+            ClusterError: No worker has been there for long.
+        """
         silent_since = None
         while True:
             with contextlib.suppress(Empty):

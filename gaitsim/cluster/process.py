@@ -60,7 +60,12 @@ class Worker:
             self.tasks.send(candidates)
 
     def answer(self) -> tuple[Candidate, Answer]:
-        """The next answer. Errors: EOFError, OSError if the worker died."""
+        """The next answer.
+
+        Raises:
+            EOFError: The worker died.
+            OSError: The worker died.
+        """
         answer: Answer = self.answers.recv()
         self.since = time.monotonic()
         return self.given.popleft(), answer
@@ -75,7 +80,11 @@ class Worker:
 
 
 def started(bundle: Bundle, mode: Mode, lifeline: Lifeline, method: str) -> Worker:
-    """A new worker. Errors: ClusterError."""
+    """A new worker.
+
+    Raises:
+        ClusterError: The cluster fails or cannot be reached.
+    """
     context: Any = get_context(method)
     tasks_out, tasks = context.Pipe(duplex=False)
     answers, answers_in = context.Pipe(duplex=False)

@@ -23,7 +23,8 @@ class Call:
 def schedule(model: Model, delayed: Iterable[Connection]) -> tuple[Call, ...]:
     """Calls of `output` in order: a part is called again if some outputs wait for others' outputs.
 
-    Errors: InvalidSpec for a loop without a state or a delay; it prints the loop.
+    Raises:
+        InvalidSpec: A loop without a state or a delay; it prints the loop.
     """
     index = {part.address: i for i, part in enumerate(model.parts)}
     cut = {id(connection) for connection in delayed}

@@ -80,7 +80,8 @@ class Kernel:
     def bitcode(self) -> bytes:
         """The module that has `int32 name(result*, exception**, stage, p*, u*, x*, y*, dt)`; not 0 if it raised.
 
-        Errors: InvalidComponent if the component cannot become native code.
+        Raises:
+            InvalidComponent: The component cannot become native code.
         """
         found = kept("kernels", self.name)
         if found is None:
@@ -100,7 +101,8 @@ def kernel_of(component: Primitive) -> Kernel:
 def address_of(component: Primitive) -> int:
     """The address of a component's native function alone: `int64 (stage, p*, u*, x*, y*, dt)`, not 0 if it raised.
 
-    Errors: InvalidComponent if the component cannot become native code.
+    Raises:
+        InvalidComponent: The component cannot become native code.
     """
     return _alone(component).address(f"{kernel_of(component).name}.alone")
 

@@ -62,8 +62,9 @@ class Assembly:
 def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Assembly:
     """Build and compile the mechanics for one set of numbers; `dressed`: with what is only to be looked at.
 
-    Errors: InvalidSpec if the bodies form no tree or MuJoCo refuses an element, InvalidComponent
-    if a component's build raises.
+    Raises:
+        InvalidSpec: The bodies form no tree or MuJoCo refuses an element.
+        InvalidComponent: A component's build raises.
     """
     spec = mujoco.MjSpec()
     spec.modelname = model.name
@@ -125,7 +126,8 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
 def _integrator(model: Model, compiled: Any) -> Any:
     """The chosen one; or by itself Euler, unless an actuator has a force that depends on velocity.
 
-    Errors: InvalidSpec for rk4 if one has.
+    Raises:
+        InvalidSpec: For rk4 if one has.
     """
     chosen = model.simulate.integrator
     damped = compiled.actuator_gainprm[:, 2].nonzero()[0]

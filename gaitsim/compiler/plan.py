@@ -19,7 +19,8 @@ from gaitsim.model import Part
 class Piece:
     """One part in native code: its kernel, where its fields lie in the tables, and how many there are.
 
-    wary: its code might never end on numbers that are not finite, so it must not see any.
+    Attributes:
+        wary: Its code might never end on numbers that are not finite, so it must not see any.
     """
 
     kernel: str
@@ -33,7 +34,12 @@ class Piece:
 
 @dataclass(frozen=True)
 class Step:
-    """One call of a part's `output`; last: all its inputs are there; always: in every step, not at the start only."""
+    """One call of a part's `output`;
+
+    Attributes:
+        last: Whether all inputs are known at this call.
+        always: In every step, not at the start only.
+    """
 
     piece: int
     last: bool
@@ -44,12 +50,17 @@ class Step:
 class Plan:
     """The pieces, who is called in which order, and what reads what.
 
-    senders: for each input its senders as (output, delay line or -1). constant: inputs that have a number of
-    their own besides. lines: the output that each delay line keeps. signals: what is recorded, a place in the
-    outputs or behind them in the states. reads: an output and whether it may change after the start, for each number
-    read of MuJoCo. writes: (an output? its place, sign) for each number written there. coordinates: how many
-    positions and velocities MuJoCo has. runge_kutta: whether MuJoCo steps by rk4. guards: parts with events, and
-    the output that rises through 0 then. resets: what events set, as of `writes`, and the same of when they do.
+    Attributes:
+        senders: For each input its senders as (output, delay line or -1).
+        constant: Inputs that have a number of their own besides.
+        lines: The output that each delay line keeps.
+        signals: What is recorded, a place in the outputs or behind them in the states.
+        reads: An output and whether it may change after the start, for each number read of MuJoCo. writes: (an output?
+            its place, sign) for each number written there.
+        coordinates: How many positions and velocities MuJoCo has.
+        runge_kutta: Whether MuJoCo steps by rk4.
+        guards: Parts with events, and the output that rises through 0 then.
+        resets: What events set, as of `writes`, and the same of when they do.
     """
 
     pieces: tuple[Piece, ...]
@@ -118,7 +129,8 @@ def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kerne
 def _constant_parts(program: Program, moved: set[int]) -> set[int]:
     """Parts whose outputs stay what they are at the start, so that they are not called again.
 
-    moved: parts with outputs that MuJoCo changes.
+    Args:
+        moved: Parts with outputs that MuJoCo changes.
     """
     found: set[int] = set()
     for call in program.calls:

@@ -155,7 +155,8 @@ class Program:
     def delays(self) -> tuple[DelayLine, ...]:
         """The delay lines, in the order of the connections that have one.
 
-        Errors: InvalidSpec for a delay that may be shorter than a step.
+        Raises:
+            InvalidSpec: A delay that may be shorter than a step.
         """
         faults, lines = Faults(), []
         step = self.model.simulate.step
@@ -253,7 +254,8 @@ class Program:
     def delay_steps(self, values: Floats) -> Floats:
         """Each delay line's delay in steps; nearly whole numbers are whole.
 
-        Errors: SimulationFailed for a delay that an expression makes shorter than a step.
+        Raises:
+            SimulationFailed: A delay that an expression makes shorter than a step.
         """
         step = self.model.simulate.step
         steps = np.array([values[line.number] / step for line in self.delays])

@@ -29,9 +29,13 @@ _WORTH_A_HELPER = 4
 
 
 def compiled(plan: Plan, kernels: Mapping[str, Kernel], timed: bool = False) -> machine.Code:
-    """The machine code of a plan, with functions `start` and `run`; timed: with a stopwatch for each part.
+    """The machine code of a plan, with functions `start` and `run`;
 
-    Errors: InvalidComponent if a kernel cannot become native code.
+    Args:
+        timed: With a stopwatch for each part.
+
+    Raises:
+        InvalidComponent: A kernel cannot become native code.
     """
     kind = "timed|" if timed else ""
     key = hashlib.sha256(f"{kind}{plan}|{machine.environment()}".encode()).hexdigest()[:32]
@@ -53,7 +57,8 @@ def compiled(plan: Plan, kernels: Mapping[str, Kernel], timed: bool = False) -> 
 def bitcode_of(kernels: Sequence[Kernel]) -> list[bytes]:
     """The code of each kernel, compiled where it is missing.
 
-    Errors: InvalidComponent if a kernel cannot become native code.
+    Raises:
+        InvalidComponent: A kernel cannot become native code.
     """
     missing = [kernel for kernel in kernels if kept("kernels", kernel.name) is None]
     helpers = _helpers(missing)
@@ -86,7 +91,11 @@ def _cores() -> int:
 
 
 def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
-    """A process that compiles kernels. Errors: OSError."""
+    """A process that compiles kernels.
+
+    Raises:
+        OSError: The file cannot be read or written.
+    """
     components = [kernel.component for kernel in kernels]
     files = [(_texts(found), [_texts(file) for file in found.shared]) for found in components]
     command = [sys.executable, "-m", "gaitsim.compiler.workshop"]

@@ -65,7 +65,8 @@ ComponentFile = Primitive | Composite
 def load_composite(reference: str, path: Path, shown: str, text: str) -> Composite:
     """The composite that a text holds; `path` is where it lies, and `shown` how errors name that.
 
-    Errors: InvalidSpec with every fault of the file's own grammar.
+    Raises:
+        InvalidSpec: With every fault of the file's own grammar.
     """
     faults = Faults()
     document = respelled(parse(text, shown), _SECTIONS, "a composite has no section", faults)

@@ -17,8 +17,12 @@ _SECTIONS = ("inputs", "outputs", "parameters", "metrics")
 def kind_faults(component: ComponentFile, contract: str, file: str, named: str) -> list[Fault]:
     """What a component lacks of its kind's common ports and parameters.
 
-    contract: the text of kind.yaml; named: how errors name it.
-    Errors: InvalidSpec if the contract itself breaks a rule.
+    Args:
+        contract: The text of kind.yaml.
+        named: How errors name it.
+
+    Raises:
+        InvalidSpec: The contract itself breaks a rule.
     """
     faults = []
     for section, units in read_contract(contract, named).items():
@@ -38,7 +42,8 @@ def kind_faults(component: ComponentFile, contract: str, file: str, named: str) 
 def read_contract(text: str, named: str) -> dict[str, dict[str, str]]:
     """What a kind.yaml asks for: names and units by section.
 
-    Errors: InvalidSpec if it breaks a rule.
+    Raises:
+        InvalidSpec: It breaks a rule.
     """
     faults = Faults()
     document = respelled(parse_document(text, named), ("about", *_SECTIONS), "a kind has no section", faults)

@@ -54,7 +54,8 @@ def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path
 class Library:
     """Components by reference, each loaded once.
 
-    texts: All files of the folders, of a library that was read before; nothing is then read again.
+    Attributes:
+        texts: All files of the folders, of a library that was read before; nothing is then read again.
     """
 
     folders: tuple[Path, ...]
@@ -66,7 +67,8 @@ class Library:
     def find(self, reference: str) -> ComponentFile:
         """The component of a reference such as muscle/geyer2003.
 
-        Errors: InvalidSpec (unknown), InvalidComponent (broken file).
+        Raises:
+            InvalidSpec: Unknown), InvalidComponent (broken file.
         """
         if reference not in self._loaded:
             self._loaded[reference] = self._load(reference)
@@ -96,7 +98,8 @@ class Library:
     def version(self, reference: str) -> str | None:
         """The digest of a component or a table, told from its text, which is not run; None if there is none.
 
-        Errors: InvalidSpec.
+        Raises:
+            InvalidSpec: The spec breaks a rule.
         """
         path = self.file(reference)
         if path is None:
@@ -117,7 +120,8 @@ class Library:
     def table(self, reference: str) -> Table:
         """The table of recorded curves of a reference such as norms/fukuchi2018_walking.
 
-        Errors: InvalidSpec.
+        Raises:
+            InvalidSpec: The spec breaks a rule.
         """
         if reference not in self._tables:
             tables = (p for folder in reversed(self.folders) for p in self._matching(folder, "*", ".csv"))
@@ -133,14 +137,19 @@ class Library:
         return dict(sorted(self._tables.items()))
 
     def contract(self, kind: str) -> tuple[Path, str] | None:
-        """The contract of a kind, if there is one: its file and what that says. Errors: InvalidSpec."""
+        """The contract of a kind, if there is one: its file and what that says.
+
+        Raises:
+            InvalidSpec: The spec breaks a rule.
+        """
         path = next((f / kind / KIND for f in self.folders if self._has(f / kind / KIND)), None)
         return (path, self._text(path, "contract")) if path else None
 
     def shared(self, kind: str, text: str) -> list[Shared]:
         """The files of a kind that the text of a component imports from, as far as there are any.
 
-        Errors: InvalidSpec.
+        Raises:
+            InvalidSpec: The spec breaks a rule.
         """
         found = []
         for name in imported_names(text):

@@ -67,7 +67,8 @@ def load_primitive(reference: str, path: Path, shown: str, text: str, shared: Se
 def _sound_trees(text: str, tree: ast.Module, shown: str, shared: Sequence[Shared]) -> list[ast.Module]:
     """The syntax trees of the shared files, which define all that the component imports.
 
-    Errors: InvalidComponent.
+    Raises:
+        InvalidComponent: A component file breaks the contract.
     """
     others = [parse_shared(file.text, file.shown) for file in shared]
     lines = text.splitlines()

@@ -21,7 +21,8 @@ D = TypeVar("D")
 class Primitive:
     """One Python component file, and the files of its kind that it imports from.
 
-    digest: Of the component's text and of those that it imports from.
+    Attributes:
+        digest: Of the component's text and of those that it imports from.
     """
 
     reference: str

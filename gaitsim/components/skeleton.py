@@ -56,7 +56,8 @@ def test_its_curves_are_numbers() -> None:
 def new_component(kind: str, name: str, library: Library, like: str | None = None) -> tuple[str, str]:
     """The file name and the text of a new component: from another one, the kind's skeleton, or its contract.
 
-    Errors: Usage.
+    Raises:
+        Usage: The request does not fit.
     """
     _check_name(kind, name, library)
     class_name = "".join(word.capitalize() for word in name.split("_"))

@@ -53,7 +53,11 @@ class Table:
 
 
 def load_table(path: Path, shown: str, text: str) -> Table:
-    """The table that a text holds. Errors: InvalidSpec with every row that breaks a rule."""
+    """The table that a text holds.
+
+    Raises:
+        InvalidSpec: With every row that breaks a rule.
+    """
     text = as_lines(text)
     about, rows, separator = _split(text.removeprefix("\ufeff"), shown)
     if len(rows) < 3:
@@ -73,8 +77,9 @@ def load_table(path: Path, shown: str, text: str) -> Table:
 def resampled(over: Floats, values: Floats, count: int) -> tuple[float, ...]:
     """A curve at `count` equal distances from 0 to 100 % of the cycle, straight between its points.
 
-    over: shares of the cycle, 0 to 1, growing. A cycle begins again where it ends, so what lacks before
-    the first point or behind the last lies between these two.
+    Args:
+        over: Shares of the cycle, 0 to 1, growing. A cycle begins again where it ends, so what lacks before the first
+            point or behind the last lies between these two.
     """
     return tuple(float(v) for v in np.interp(np.linspace(0, 1, count), over, values, period=_period(over)))
 
@@ -100,7 +105,11 @@ def _split(text: str, shown: str) -> tuple[list[str], list[Row], str]:
 
 
 def _heads(row: Row) -> list[tuple[str, str]]:
-    """Names and units of all columns. Errors: InvalidSpec."""
+    """Names and units of all columns.
+
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+    """
     place, words = row
     faults, found = Faults(), []
     for word in words:

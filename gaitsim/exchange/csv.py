@@ -9,6 +9,10 @@ from gaitsim.simulation.outcome import Trajectory
 
 
 def write_csv(path: Path, trajectory: Trajectory) -> None:
-    """Write `time [s],guide.position [m],...`; numbers in SI, exactly. Errors: OSError."""
+    """Write `time [s],guide.position [m],...`; numbers in SI, exactly.
+
+    Raises:
+        OSError: The file cannot be read or written.
+    """
     named = [f"{s} [{u}]" for s, u in zip(trajectory.signals, trajectory.units, strict=True)]
     write_table(path, ",".join(["time [s]", *named]) + "\n", trajectory, ",")

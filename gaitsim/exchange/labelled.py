@@ -33,7 +33,11 @@ def labelled(trajectory: Trajectory, signals: Sequence[Signal], about: Mapping[s
 
 
 def write_netcdf(path: Path, data: xarray.Dataset) -> None:
-    """Write a dataset as netCDF-4. Errors: OSError."""
+    """Write a dataset as netCDF-4.
+
+    Raises:
+        OSError: The file cannot be read or written.
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
     with whole(path) as draft:
         data.to_netcdf(draft, engine="h5netcdf")

@@ -13,7 +13,11 @@ _BLOCK = 10_000  # rows that are text at a time
 
 
 def write_table(path: Path, head: str, trajectory: Trajectory, separator: str) -> None:
-    """A heading, then a row for each instant: time first. Errors: OSError, with nothing left behind."""
+    """A heading, then a row for each instant: time first.
+
+    Raises:
+        OSError: With nothing left behind.
+    """
     path.parent.mkdir(parents=True, exist_ok=True)
     with whole(path) as draft, draft.open("w", encoding="utf-8", newline="\n") as file:
         file.write(head)

@@ -9,9 +9,12 @@ from gaitsim.simulation.outcome import Trajectory
 
 
 def write_sto(path: Path, trajectory: Trajectory, name: str) -> None:
-    """Write signals under their addresses; numbers in SI (angles in radians), exactly. Errors: OSError.
+    """Write signals under their addresses; numbers in SI (angles in radians), exactly.
 
     The header has a key `unit.ADDRESS` for each column, which OpenSim keeps as metadata.
+
+    Raises:
+        OSError: The file cannot be read or written.
     """
     units = [f"unit.{s}={u}" for s, u in zip(trajectory.signals, trajectory.units, strict=True)]
     head = [

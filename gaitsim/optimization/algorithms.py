@@ -42,7 +42,11 @@ class Entry:
     extra: str = ""
 
     def make(self, problem: Problem, seed: int, population: int | None) -> Algorithm:
-        """The algorithm at its start. Errors: Usage if its library is not installed."""
+        """The algorithm at its start.
+
+        Raises:
+            Usage: Its library is not installed.
+        """
         try:
             return self.factory(problem, seed, population)
         except ImportError as error:

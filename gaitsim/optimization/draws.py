@@ -13,8 +13,9 @@ from gaitsim.optimization.problem import Problem
 class Draws:
     """So many draws: each multiplies every number by 1 + uniform(-within, within), kept inside its bounds.
 
-    within: a share, 0.01 for 1 %. Draw k, from 1, depends on seed and k only, not on how many there are;
-    a wider share moves the same numbers the same way, further.
+    Attributes:
+        within: A share, 0.01 for 1 %. Draw k, from 1, depends on seed and k only, not on how many there are; a wider
+            share moves the same numbers the same way, further.
     """
 
     count: int

@@ -10,8 +10,9 @@ from dataclasses import dataclass, field
 class Bracket:
     """One range, asked at shares of the way from 0 to 1 and told at which of them it holds.
 
-    points: of the scan, both ends among them. tolerance: how near the last share that holds must come to
-    the first that does not.
+    Attributes:
+        points: Of the scan, both ends among them.
+        tolerance: How near the last share that holds must come to the first that does not.
     """
 
     points: int
@@ -47,7 +48,11 @@ class Bracket:
 
     @property
     def last(self) -> float:
-        """The last share that holds before the first that does not. Errors: ValueError if there is none."""
+        """The last share that holds before the first that does not.
+
+        Raises:
+            ValueError: There is none.
+        """
         first = self.first
         return max(share for share, holds in self.held.items() if holds and (first is None or share < first))
 

@@ -16,7 +16,11 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Variable:
-    """One tuned number, in SI; unit: the one it is written in outside."""
+    """One tuned number, in SI;
+
+    Attributes:
+        unit: The one it is written in outside.
+    """
 
     address: str
     unit: Unit

@@ -33,9 +33,11 @@ Watcher = Callable[["Progress"], None]
 class Progress:
     """Where a search stands.
 
-    generation, evaluations: whole ones, and all their evaluations. asked, arrived: of the generation that is being
-    evaluated, how many candidates it has and how many are known. evaluated_now: in this session.
-    last: the evaluations of the last whole generation.
+    Attributes:
+        generation, evaluations: Whole ones, and all their evaluations.
+        asked, arrived: Of the generation that is being evaluated, how many candidates it has and how many are known.
+        evaluated_now: In this session.
+        last: The evaluations of the last whole generation.
     """
 
     generation: int = 0
@@ -70,7 +72,10 @@ class Search:
     def run(self, generations: int) -> Progress:
         """Search until so many generations are done or the algorithm stops.
 
-        Errors: DamagedJournal; what the evaluator raises. Everything that arrived is in the journal.
+        Everything that arrived is in the journal.
+
+        Raises:
+            DamagedJournal: ; what the evaluator raises.
         """
         progress = self.progress
         self._evaluated(0, [tuple(self.problem.start)])

@@ -51,14 +51,22 @@ class Bundle:
         return {path: hashlib.sha256(text.encode()).hexdigest() for path, text in sorted(self.files.items())}
 
     def write(self, folder: Path) -> None:
-        """Write the files below a folder. Errors: OSError."""
+        """Write the files below a folder.
+
+        Raises:
+            OSError: The file cannot be read or written.
+        """
         for path, text in self.files.items():
             target = folder / path
             target.parent.mkdir(parents=True, exist_ok=True)
             target.write_text(text, encoding="utf-8")
 
     def document(self) -> MappingNode:
-        """The spec. Errors: InvalidSpec."""
+        """The spec.
+
+        Raises:
+            InvalidSpec: The spec breaks a rule.
+        """
         return parse(self.files[SPEC], str(self.folder / SPEC))
 
     def library(self) -> Library:
@@ -67,7 +75,11 @@ class Bundle:
         return Library((self.folder / COMPONENTS,), inside)
 
     def starts(self) -> dict[str, float]:
-        """The tuned values to start from, by address, in SI. Errors: BadResult."""
+        """The tuned values to start from, by address, in SI.
+
+        Raises:
+            BadResult: The folder is not a result, or the result is damaged.
+        """
         if START not in self.files:
             return {}
         try:
@@ -78,7 +90,13 @@ class Bundle:
             raise BadResult(Fault(rule, Mark(str(self.folder / START)))) from error
 
     def model(self) -> Model:
-        """The model at its starts. Errors: InvalidSpec, InvalidComponent, BadResult."""
+        """The model at its starts.
+
+        Raises:
+            InvalidSpec: The spec breaks a rule.
+            InvalidComponent: A component file breaks the contract.
+            BadResult: The folder is not a result, or the result is damaged.
+        """
         model = resolve(self.document(), self.library(), self.name)
         return model.started_at(self.starts(), str(self.folder / START))
 
@@ -110,7 +128,8 @@ def bundled(
 def read_bundle(folder: Path, name: str) -> Bundle:
     """The bundle that lies in a result folder, also behind links.
 
-    Errors: BadResult for what is missing or no text.
+    Raises:
+        BadResult: For what is missing or no text.
     """
     try:
         inside = [path for path in (folder / COMPONENTS).glob("*/*") if path.suffix in _SUFFIXES]

@@ -37,7 +37,11 @@ ORDERS: Mapping[str, Callable[[Row], Any]] = {
 class Filter:
     """Which results are wanted; None for all.
 
-    name: A pattern of the spec's name. since: A day such as 2026-11-22. uses: A component. noted: A text in the notes.
+    Attributes:
+        name: A pattern of the spec's name.
+        since: A day such as 2026-11-22.
+        uses: A component.
+        noted: A text in the notes.
     """
 
     name: str | None = None
@@ -48,7 +52,9 @@ class Filter:
     noted: str | None = None
 
     def __post_init__(self) -> None:
-        """Errors: Usage for words that no result has."""
+        """        Raises:
+            Usage: For words that no result has.
+        """
         for option, words in _CHOICES.items():
             said = getattr(self, option)
             if said is not None and said not in words:

@@ -42,7 +42,8 @@ class Citations:
 def citations(model: Model, bibliography: Mapping[str, str], algorithm: tuple[str, ...] = ()) -> Citations:
     """What a model is made of; `algorithm` has the keys of the search that tuned it.
 
-    Errors: InvalidSpec for each source that is in no bibliography, with its place.
+    Raises:
+        InvalidSpec: Each source that is in no bibliography, with its place.
     """
     used: dict[str, list[str]] = defaultdict(list)
     words: dict[str, list[str]] = defaultdict(list)

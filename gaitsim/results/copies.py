@@ -17,8 +17,10 @@ from gaitsim.results.trust import strangers
 class Copy:
     """One component file of a result.
 
-    library: which of one's own has a file of this name: shipped, lab, project, a folder; empty for none.
-    same: whether that file is the same. strange: whether it is code that this machine does not know.
+    Attributes:
+        library: Which of one's own has a file of this name: shipped, lab, project, a folder; empty for none.
+        same: Whether that file is the same.
+        strange: Whether it is code that this machine does not know.
     """
 
     path: str

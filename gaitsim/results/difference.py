@@ -22,8 +22,10 @@ Rows = Mapping[str, str]
 class Change:
     """One thing in which two models differ.
 
-    what: a key of `KINDS`. where: its address, or the file of a component. first, second: what each model has; empty
-    for nothing.
+    Attributes:
+        what: A key of `KINDS`.
+        where: Its address, or the file of a component.
+        first, second: What each model has; empty for nothing.
     """
 
     what: str
@@ -108,7 +110,12 @@ def counted(changes: Iterable[Change]) -> dict[str, int]:
 def _told(
     what: str, first: Rows, second: Rows, only: Iterable[str] | None = None, unless: Iterable[str] = ()
 ) -> Iterator[Change]:
-    """What differs between two tables, in their order. only: of these rows. unless: not of rows in these parts."""
+    """What differs between two tables, in their order.
+
+    Args:
+        only: Of these rows.
+        unless: Not of rows in these parts.
+    """
     without = set(unless)
     for where in dict.fromkeys(only if only is not None else (*first, *second)):
         pair = first.get(where, ""), second.get(where, "")

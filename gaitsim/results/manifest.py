@@ -34,14 +34,19 @@ def is_result(path: Path) -> bool:
 def result_named(path: Path, results: Path | None = None) -> Path:
     """The result that is meant by its name alone, such as 2026-11-22-hopping-3f9c; any other path as it is.
 
-    results: the folder in which names are looked up, if not the usual one.
+    Args:
+        results: The folder in which names are looked up, if not the usual one.
     """
     found = results_folder(results) / path
     return found if len(path.parts) == 1 and not path.exists() and (found / _NAME).is_file() else path
 
 
 def new_manifest(kind: str, bundle: Bundle, mode: str, place: Path, **more: Any) -> dict[str, Any]:
-    """The manifest of a result that is about to be made; place: the folder of its spec."""
+    """The manifest of a result that is about to be made;
+
+    Args:
+        place: The folder of its spec.
+    """
     return {
         "kind": kind,
         "status": "running",
@@ -61,7 +66,11 @@ def format_of(manifest: Mapping[str, Any]) -> int:
 
 
 def write_manifest(folder: Path, manifest: dict[str, Any]) -> None:
-    """Replace the manifest as a whole. Errors: OSError."""
+    """Replace the manifest as a whole.
+
+    Raises:
+        OSError: The file cannot be read or written.
+    """
     write_whole(folder / _NAME, json.dumps(manifest, indent=2) + "\n")
 
 
@@ -89,7 +98,8 @@ class _Known(BaseModel):
 def recorded_manifest(folder: Path) -> dict[str, Any]:
     """What a result's manifest says; whether its files are as they were is not asked.
 
-    Errors: BadResult.
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
     """
     path = folder / _NAME
     try:
@@ -116,7 +126,8 @@ def _said(fault: ErrorDetails) -> str:
 def read_result(folder: Path) -> tuple[dict[str, Any], Bundle]:
     """The manifest of a result, and its files, checked against the digest that the manifest has of them.
 
-    Errors: BadResult.
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
     """
     check_is_result(folder)
     manifest = recorded_manifest(folder)
@@ -128,7 +139,11 @@ def read_result(folder: Path) -> tuple[dict[str, Any], Bundle]:
 
 
 def _edited(before: Mapping[str, str], bundle: Bundle) -> str:
-    """What happened to the files of a result. before: their digests; older results have none."""
+    """What happened to the files of a result.
+
+    Args:
+        before: Their digests; older results have none.
+    """
     now = bundle.digests
     same = [path for path in before if now.get(path) == before[path]]
     found = {
@@ -141,7 +156,9 @@ def _edited(before: Mapping[str, str], bundle: Bundle) -> str:
 
 
 def check_is_result(folder: Path) -> None:
-    """Errors: BadResult for what is no result, or one that was never finished being made."""
+    """    Raises:
+        BadResult: For what is no result, or one that was never finished being made.
+    """
     if not folder.is_dir():
         near = sorted(p.name for p in folder.absolute().parent.glob("*") if (p / _NAME).is_file())
         known = f"; the last are: {', '.join(near[-5:])}" if near else ""
@@ -152,7 +169,11 @@ def check_is_result(folder: Path) -> None:
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
-    """The manifest of a result whose files are as they were. Errors: BadResult."""
+    """The manifest of a result whose files are as they were.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+    """
     return read_result(folder)[0]
 
 

@@ -103,7 +103,11 @@ def _unpacked(archive: Path, file: zipfile.ZipFile, root: Path) -> Path:
 
 
 def _checked(archive: Path, entries: Sequence[zipfile.ZipInfo]) -> str:
-    """The name of the result in a file. Errors: BadResult for what export never writes."""
+    """The name of the result in a file.
+
+    Raises:
+        BadResult: For what export never writes.
+    """
     for rule in _faults(entries):
         raise BadResult(f"{archive}: {rule}; nothing was imported. {_ANEW[0].upper()}{_ANEW[1:]}.")
     return entries[0].filename.partition("/")[0]

@@ -13,7 +13,9 @@ from gaitsim.results.manifest import BadResult
 def pick(folder: Path, which: str) -> Evaluation:
     """The evaluation that `best`, `RANK` (1 is the best) or `GENERATION:INDEX` names.
 
-    Errors: BadResult for a search without evaluations, Usage for a word that names none.
+    Raises:
+        BadResult: A search without evaluations.
+        Usage: A word that names none.
     """
     found = evaluations_in(folder)
     if not found:

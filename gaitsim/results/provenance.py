@@ -18,7 +18,11 @@ _LIBRARIES = ("mujoco", "numba", "numpy", "pydantic", "pyyaml", "cma")
 
 
 def provenance(place: Path) -> dict[str, Any]:
-    """What a result must remember of its making. place: the folder of its spec."""
+    """What a result must remember of its making.
+
+    Args:
+        place: The folder of its spec.
+    """
     return {
         "created": datetime.now(UTC).isoformat(timespec="seconds"),
         "command": [Path(sys.argv[0]).name, *sys.argv[1:]],

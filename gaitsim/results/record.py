@@ -33,8 +33,12 @@ _TOLD = 20  # runs that the README lists
 class Record:
     """A result folder that begins with its first run. What was written of it stays, whatever comes after.
 
-    model: the first one that is run; xml: its MJCF. place: the folder of its spec. draws: around the model's starts, if
-    the runs are these. more: what else the manifest says.
+    Args:
+        model: The first one that is run.
+        xml: Its MJCF.
+        place: The folder of its spec.
+        draws: Around the model's starts, if the runs are these.
+        more: What else the manifest says.
     """
 
     def __init__(
@@ -59,7 +63,12 @@ class Record:
         self._held = ExitStack()
 
     def go_on(self, folder: Path, rows: list[dict[str, Any]], manifest: dict[str, Any]) -> None:
-        """Continue the result in a folder, which has these runs. Errors: CannotSave, Locked."""
+        """Continue the result in a folder, which has these runs.
+
+        Raises:
+            CannotSave: The folder cannot be written.
+            Locked: Another process writes this result.
+        """
         self._held.enter_context(Lock(folder))
         self.folder, self._rows, self._manifest = folder, rows, manifest | {"status": "running"}
         try:
@@ -93,7 +102,11 @@ class Record:
             raise self._cannot(error) from error
 
     def close(self, status: str) -> None:
-        """Say how it ended: complete or interrupted. Errors: CannotSave."""
+        """Say how it ended: complete or interrupted.
+
+        Raises:
+            CannotSave: The folder cannot be written.
+        """
         if self.folder is None:
             return
         with self._held:

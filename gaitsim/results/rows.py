@@ -16,7 +16,11 @@ COMPARED = ("status", "score", "metrics", "steps")  # what makes two runs the sa
 
 
 def read_rows(folder: Path, begun: bool = False) -> list[dict[str, Any]]:
-    """The runs of a result; `begun`: without a last line that a writer that died left unfinished. Errors: BadResult."""
+    """The runs of a result; `begun`: without a last line that a writer that died left unfinished.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+    """
     path = folder / "evaluations.jsonl"
     rows: list[dict[str, Any]] = []
     try:
@@ -34,7 +38,11 @@ def read_rows(folder: Path, begun: bool = False) -> list[dict[str, Any]]:
 
 
 def outcome_of(row: Mapping[str, Any], step: float) -> Outcome:
-    """How a run ended that was read; step: of its model, in s."""
+    """How a run ended that was read;
+
+    Args:
+        step: Of its model, in s.
+    """
     metrics = {name: math.nan if value is None else float(value) for name, value in row["metrics"].items()}
     return Outcome(row["status"], row["reason"], row["steps"], step, metrics, row["score"], 0.0)
 
@@ -43,7 +51,10 @@ def pick_row(folder: Path, which: str) -> int:
     """The place, from 0, of the run that `best` or its number, from 1, names.
 
     Best is the lowest score; without scores the first run that did not fail, or else the first.
-    Errors: BadResult, Usage for a word that names none.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+        Usage: A word that names none.
     """
     rows = read_rows(folder)
     if not rows:

@@ -39,9 +39,11 @@ def create_result(
 ) -> Path:
     """A new result folder with spec, model, MJCF, components, manifest and more files; its path.
 
-    move: what helps where it cannot be written.
+    Args:
+        move: What helps where it cannot be written.
 
-    Errors: CannotSave, with nothing left behind.
+    Raises:
+        CannotSave: With nothing left behind.
     """
     draft = None
     try:
@@ -65,7 +67,11 @@ def create_result(
 
 
 def finish(folder: Path, manifest: dict[str, Any], headline: Sequence[str]) -> None:
-    """Write the README, keeping the researcher's notes, and the final manifest. Errors: OSError."""
+    """Write the README, keeping the researcher's notes, and the final manifest.
+
+    Raises:
+        OSError: The file cannot be read or written.
+    """
     path = folder / "README.md"
     before = path.read_text(encoding="utf-8", errors="backslashreplace") if path.is_file() else ""
     path.write_text(readme(manifest, headline, before), encoding="utf-8")
@@ -95,7 +101,8 @@ def _free_name(root: Path, name: str) -> Path:
 def save_trajectory(path: Path, outcome: Outcome) -> None:
     """Write a recorded run as CSV: time and every signal, each with its unit.
 
-    Errors: CannotSave.
+    Raises:
+        CannotSave: The folder cannot be written.
     """
     trajectory = outcome.trajectory
     assert trajectory is not None

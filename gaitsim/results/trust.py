@@ -36,7 +36,8 @@ def remember(bundle: Bundle) -> None:
 def check_trust(bundle: Bundle, trusted: bool) -> None:
     """Let a result's components run only if they are known, or with the user's word.
 
-    Errors: Untrusted.
+    Raises:
+        Untrusted: The result has components that this machine does not trust.
     """
     if trusted:
         return

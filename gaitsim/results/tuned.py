@@ -36,7 +36,12 @@ def tuned_path(spec: Path) -> Path:
 def write_tuned(spec: Path, result: str, score: float, values: Mapping[str, float], units: Mapping[str, Unit]) -> Path:
     """Write the tuned values of a spec, as text that reads back bit for bit; the path.
 
-    values: in SI. units: in which they are written. Errors: OSError.
+    Args:
+        values: In SI.
+        units: In which they are written.
+
+    Raises:
+        OSError: The file cannot be read or written.
     """
     path = tuned_path(spec)
     write_whole(path, tuned_text(result, score, values, units))
@@ -44,7 +49,11 @@ def write_tuned(spec: Path, result: str, score: float, values: Mapping[str, floa
 
 
 def tuned_text(result: str, score: float | None, values: Mapping[str, float], units: Mapping[str, Unit]) -> str:
-    """A file of tuned values; score: None where it is not known. Else as `write_tuned`."""
+    """A file of tuned values;
+
+    Args:
+        score: None where it is not known. Else as `write_tuned`.
+    """
     said = {a: v if units[a].text == "1" else units[a].exactly(v) for a, v in values.items()}
     known = {} if score is None else {"score": score}
     return dump({"about": _ABOUT, "format": _FORMAT, "result": result, **known, "values": said})
@@ -53,7 +62,8 @@ def tuned_text(result: str, score: float | None, values: Mapping[str, float], un
 def read_tuned(path: Path, free: Iterable[Free]) -> TunedValues:
     """The tuned values in a file; those of `free` in units that fit.
 
-    Errors: InvalidSpec.
+    Raises:
+        InvalidSpec: The spec breaks a rule.
     """
     document = read(path)
     values, result = document.entries.get("values"), document.entries.get("result")
@@ -75,7 +85,14 @@ def read_tuned(path: Path, free: Iterable[Free]) -> TunedValues:
 
 
 def _quantity(node: Node, in_si: bool) -> Quantity:
-    """A tuned value. in_si: its number is in SI already. Errors: InvalidSpec."""
+    """A tuned value.
+
+    Args:
+        in_si: Its number is in SI already.
+
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+    """
     if isinstance(node, ScalarNode) and isinstance(node.value, str | int | float) and not isinstance(node.value, bool):
         text = str(node.value).partition(" ")[0] if in_si else node.value
         try:

@@ -19,7 +19,9 @@ def run_all(
 ) -> Iterator[Outcome]:
     """The outcomes of models, in their order; `prepared` sees each simulator before any runs.
 
-    Errors: InvalidSpec, InvalidComponent, from the first model that does not compile.
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: From the first model that does not compile.
     """
     # Prepared one after the other: compiling components is not for threads.
     simulators = [_simulator(model, mode, prepared) for model in models]
@@ -31,7 +33,9 @@ def run_each(
 ) -> Iterator[Outcome]:
     """As `run_all`, where some models are known to be invalid; such a run fails, and so does one that does not compile.
 
-    Errors: InvalidSpec, InvalidComponent, if no model can be run: from the first.
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: No model can be run: from the first.
     """
     made = [_simulator_or_fault(model, mode, prepared) for model in models]
     faults = [each for each in made if not isinstance(each, Simulator)]

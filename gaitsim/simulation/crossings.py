@@ -20,11 +20,12 @@ from gaitsim.simulation.trial import Trial
 class Crossing:
     """A part of a path at one hinge.
 
-    muscle: the address of the part with an activation that the path is in.
-    path: the address of the whole path.
-    part: the path component whose moment it is.
-    joint: MuJoCo's name of the hinge; `hinge` is the part, `neutral` its angle in the posture of the model file.
-    share: how much of the moment turns the coordinate: 1, or -1.
+    Attributes:
+        muscle: The address of the part with an activation that the path is in.
+        path: The address of the whole path.
+        part: The path component whose moment it is.
+        joint: MuJoCo's name of the hinge; `hinge` is the part, `neutral` its angle in the posture of the model file.
+        share: How much of the moment turns the coordinate: 1, or -1.
     """
 
     muscle: str

@@ -30,7 +30,8 @@ class Failed(Exception):
 def advance(run: Checked, step: int) -> None:
     """A whole step of the mechanics.
 
-    Errors: Failed.
+    Raises:
+        Failed: The candidate fails.
     """
     done, data = 0.0, run.physics.data
     risen: list[int] = []

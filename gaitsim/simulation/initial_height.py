@@ -17,7 +17,8 @@ _ABOVE = 100.0  # m: from where one looks down for the ground
 def stand(model: Any, data: Any, lift: int, touching: tuple[Touching, ...]) -> None:
     """Move a vertical coordinate until the lowest of the places just touches.
 
-    Errors: SimulationFailed if there is no place, or no ground below one.
+    Raises:
+        SimulationFailed: There is no place, or no ground below one.
     """
     mujoco.mj_kinematics(model, data)
     gaps = [_gap(model, data, place) for place in touching]

@@ -28,14 +28,14 @@ _NOTHING = 1e-6  # m; a path that runs through the axis has no side
 class MomentArm:
     """The arm of one path over one hinge: positive where tension makes the hinge's angle grow.
 
-    muscle: the address of what pulls, or of the path if that is no muscle's.
-    path: the component that has the arm; one of a path of points is told from its `points`.
-    limited: whether the hinge says where it ends.
-    backwards: whether the child, hanging, turns backwards as the angle grows: about the axis to the left. None if it
-        turns out of the sagittal plane.
-    alone: whether the hinge is a whole joint; an arm over one hinge of several depends on the angles of the others.
-    initial: the arm in the initial pose.
-    Angles in rad, arms and lengths in m.
+    Attributes:
+        muscle: The address of what pulls, or of the path if that is no muscle's.
+        path: The component that has the arm; one of a path of points is told from its `points`.
+        limited: Whether the hinge says where it ends.
+        backwards: Whether the child, hanging, turns backwards as the angle grows: about the axis to the left. None if
+            it turns out of the sagittal plane.
+        alone: Whether the hinge is a whole joint; an arm over one hinge of several depends on the angles of the others.
+        initial: The arm in the initial pose. Angles in rad, arms and lengths in m.
     """
 
     muscle: str
@@ -70,7 +70,9 @@ def moment_arms(model: Model) -> list[MomentArm]:
 
     The other coordinates stay as they are in the initial pose; loops of bodies are not kept closed.
 
-    Errors: InvalidSpec, SimulationFailed.
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+        SimulationFailed: The candidate fails.
     """
     physics = Physics(Program(model))
     physics.pose(model.values())

@@ -61,7 +61,11 @@ class _Reached:
 
 @dataclass
 class NativeLoop:
-    """A program in native code; timed: with a stopwatch in it, see `simulation/profile.py`."""
+    """A program in native code;
+
+    Attributes:
+        timed: With a stopwatch in it, see `simulation/profile.py`.
+    """
 
     program: Program
     timed: bool = False
@@ -75,7 +79,9 @@ class NativeLoop:
     def prepare(self) -> None:
         """Compile or load all native code, and check what only the posed model can tell.
 
-        Errors: InvalidComponent, InvalidSpec.
+        Raises:
+            InvalidComponent: A component file breaks the contract.
+            InvalidSpec: The spec breaks a rule.
         """
         self.physics.check_initial()
         self._bound()
@@ -166,7 +172,8 @@ class NativeLoop:
     def _bound(self) -> tuple[_Native, Integers]:
         """Native code for the present mechanics, and the addresses in MuJoCo's data that it reads and writes.
 
-        Errors: InvalidComponent.
+        Raises:
+            InvalidComponent: A component file breaks the contract.
         """
         assembly = self.physics.assembly
         if self._tied is None or self._tied[0] is not assembly:

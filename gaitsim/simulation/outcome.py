@@ -28,7 +28,8 @@ class Trajectory:
 class Outcome:
     """The result of one simulation. Status: completed, stopped (by a measure) or failed.
 
-    level: what the measure that stopped it says of the end, if it has a state with named levels: fell_to_the_right.
+    Attributes:
+        level: What the measure that stopped it says of the end, if it has a state with named levels: fell_to_the_right.
     """
 
     status: str
@@ -53,7 +54,8 @@ class Outcome:
     def every(self, interval: float) -> Outcome:
         """The same run, of whose trajectory one instant in `interval` seconds is kept, the first included.
 
-        Errors: Usage unless that is a whole number of steps.
+        Raises:
+            Usage: Unless that is a whole number of steps.
         """
         whole, steps = self.trajectory, steps_in(interval, self.step)
         if whole is None:
@@ -63,7 +65,11 @@ class Outcome:
 
 
 def steps_in(interval: float, step: float) -> int:
-    """How many steps an interval has, both in s. Errors: Usage unless that is a whole number."""
+    """How many steps an interval has, both in s.
+
+    Raises:
+        Usage: Unless that is a whole number.
+    """
     steps = round(interval / step)
     if steps < 1 or abs(steps * step - interval) > 1e-9:
         raise Usage(f"one instant every {interval:g} s: the run has steps of {step:g} s; write a multiple of that.")

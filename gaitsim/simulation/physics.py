@@ -54,7 +54,8 @@ class Physics:
     def pose(self, values: Sequence[float]) -> None:
         """Build if needed, reset all of MuJoCo's state, set the initial coordinates and close loops.
 
-        Errors: SimulationFailed if no pose has these coordinates and closed loops.
+        Raises:
+            SimulationFailed: No pose has these coordinates and closed loops.
         """
         key = tuple(values[i] for i in self._mechanical)
         if self._assembly is None or key != self._built_for:
@@ -96,7 +97,8 @@ class Physics:
     def check_initial(self) -> None:
         """Every initial value is for a joint coordinate or a state.
 
-        Errors: InvalidSpec.
+        Raises:
+            InvalidSpec: The spec breaks a rule.
         """
         self.pose(self.program.model.values())
         for address, number in self.program.model.initial.items():

@@ -47,7 +47,12 @@ class Cost:
 
 @dataclass(frozen=True)
 class Profile:
-    """Costs of a step, largest first. step: seconds without the stopwatch. slower: how many times more with it."""
+    """Costs of a step, largest first.
+
+    Attributes:
+        step: Seconds without the stopwatch.
+        slower: How many times more with it.
+    """
 
     costs: tuple[Cost, ...]
     step: float
@@ -72,7 +77,10 @@ class Profile:
 def profile(model: Model) -> Profile:
     """Run a model from its starts several times, with and without the stopwatch, in turns.
 
-    Errors: SimulationFailed if the run fails; InvalidSpec, InvalidComponent.
+    Raises:
+        SimulationFailed: The run fails.
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
     """
     plain, timed = NativeLoop(Program(model)), NativeLoop(Program(model), timed=True)
     for each in (plain, timed):

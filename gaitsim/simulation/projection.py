@@ -19,7 +19,8 @@ _MOST_STEPS = 50
 def close_loops(model: Any, data: Any, set_positions: Collection[int], set_velocities: Collection[int]) -> None:
     """Move the free coordinates of a pose, and then their velocities, onto the equality constraints.
 
-    Errors: SimulationFailed if no posture near by closes them.
+    Raises:
+        SimulationFailed: No posture near by closes them.
     """
     if model.neq == 0:
         return

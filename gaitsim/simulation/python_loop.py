@@ -40,7 +40,8 @@ class PythonLoop:
     def prepare(self) -> None:
         """Check what only the posed model can tell.
 
-        Errors: InvalidSpec.
+        Raises:
+            InvalidSpec: The spec breaks a rule.
         """
         self.physics.check_initial()
 
@@ -95,7 +96,8 @@ class Checked:
     def start(self) -> None:
         """Start all parts in rounds, so that what goes in circles (a fiber, its reflex, its activation) is read.
 
-        Errors: Failed.
+        Raises:
+            Failed: The candidate fails.
         """
         self._read()
         for i in range(STARTING_ROUNDS):
@@ -108,7 +110,8 @@ class Checked:
     def step(self, step: int) -> None:
         """One whole step.
 
-        Errors: Failed.
+        Raises:
+            Failed: The candidate fails.
         """
         self.outputs(step)
         self.update(step)
@@ -116,7 +119,8 @@ class Checked:
     def outputs(self, step: int) -> None:
         """The first half of a step: all outputs of its instant, into MuJoCo and into the past.
 
-        Errors: Failed.
+        Raises:
+            Failed: The candidate fails.
         """
         self.look(step)
         self.apply(step)
@@ -126,7 +130,8 @@ class Checked:
     def look(self, step: int) -> None:
         """All outputs at the present positions and velocities of MuJoCo.
 
-        Errors: Failed.
+        Raises:
+            Failed: The candidate fails.
         """
         mujoco.mj_step1(self.physics.model, self.physics.data)
         self._read()
@@ -141,7 +146,8 @@ class Checked:
     def update(self, step: int) -> None:
         """The second half of a step: the states of all parts and of MuJoCo at the next instant.
 
-        Errors: Failed.
+        Raises:
+            Failed: The candidate fails.
         """
         for part in self.program.updates:
             self.gather(part, step)
@@ -165,7 +171,8 @@ class Checked:
     def call(self, part: int, stage: str, step: int, check: bool = True, time: float | None = None) -> None:
         """Call one function of a part; what it raises or leaves not finite ends the run.
 
-        time: of `reset`, the instant of its event.
+        Args:
+            time: Of `reset`, the instant of its event.
         """
         function = self.functions[part].get(stage)
         p, u, x, y = self.views[part]

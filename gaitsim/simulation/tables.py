@@ -15,9 +15,12 @@ from gaitsim.compiler.program import Floats, Integers, Program
 class Tables:
     """Parameters, inputs, states and outputs; constants of the inputs; the past of delayed signals.
 
-    past: a row for each of the last steps, a power of two of them, with a number for each delay line. whole, rest:
-    each line's delay in steps. before: what it gives before the start; nan for what is sent at the start.
-    places, values: initial values of states. written: what was last written into MuJoCo, for rk4; nan before.
+    Attributes:
+        past: A row for each of the last steps, a power of two of them, with a number for each delay line. whole, rest:
+            each line's delay in steps.
+        before: What it gives before the start; nan for what is sent at the start.
+        places, values: Initial values of states.
+        written: What was last written into MuJoCo, for rk4; nan before.
     """
 
     p: Floats
@@ -37,7 +40,8 @@ class Tables:
     def of(program: Program, values: Sequence[float], initial: dict[int, float], writes: int) -> Tables:
         """The tables of a candidate before its start; `initial`: place of a state -> value; `writes`: into MuJoCo.
 
-        Errors: SimulationFailed for a delay that an expression makes shorter than a step.
+        Raises:
+            SimulationFailed: A delay that an expression makes shorter than a step.
         """
         numbers = np.asarray(values, dtype=np.float64)
         delays = program.delay_steps(numbers)

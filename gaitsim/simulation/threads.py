@@ -23,7 +23,10 @@ def cores() -> int:
 def in_thread(call: Callable[[], Result], limit: float | None = None) -> Result:
     """What a call returns, made in a thread of its own.
 
-    Errors: TimeoutError after `limit` seconds. The thread then goes on, and what it works on is its own.
+    The thread then goes on, and what it works on is its own.
+
+    Raises:
+        TimeoutError: After `limit` seconds.
     """
     answer: Future[Result] = Future()
     threading.Thread(target=_answer, args=(call, answer), daemon=True).start()

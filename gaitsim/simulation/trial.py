@@ -48,7 +48,8 @@ class Trial:
     def put(self, values: Mapping[str, Any]) -> Trial:
         """Set parameters, inputs and states by name, and outputs that MuJoCo would set.
 
-        Errors: KeyError for a name that is not declared.
+        Raises:
+            KeyError: A name that is not declared.
         """
         for name, value in values.items():
             view = next((v for home, v in zip(self.homes, self.views, strict=True) if name in home), None)

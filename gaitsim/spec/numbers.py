@@ -49,7 +49,8 @@ class NumberTable:
     ) -> int:
         """Add one number; `logical` is its address as written once for all sides.
 
-        default: the node stands with the declaration, whose source then is the number's.
+        Args:
+            default: The node stands with the declaration, whose source then is the number's.
         """
         made = self._number(address, logical, node, _closed(declared, node), names, fraction_of)
         if default and made.source in ("", _SPEC):

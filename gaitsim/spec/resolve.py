@@ -27,7 +27,8 @@ Settings = Iterable[tuple[str, str]]
 def read_spec(path: Path, settings: Settings = ()) -> MappingNode:
     """The spec's document with its parents merged in and `--set` applied.
 
-    Errors: InvalidSpec.
+    Raises:
+        InvalidSpec: The spec breaks a rule.
     """
     document = with_parents(path, str(path))
     for address, text in settings:
@@ -38,7 +39,8 @@ def read_spec(path: Path, settings: Settings = ()) -> MappingNode:
 def resolve(document: MappingNode, library: Library, name: str) -> Model:
     """The model of a document.
 
-    Errors: InvalidSpec with every fault found.
+    Raises:
+        InvalidSpec: With every fault found.
     """
     faults = Faults()
     head, document = header(document, faults)
@@ -137,7 +139,8 @@ def _mask(document: MappingNode, table: NumberTable, scope: Scope, faults: Fault
 def _check_names(document: MappingNode) -> None:
     """One namespace: a name stands for one thing.
 
-    Errors: InvalidSpec; what else is wrong cannot be told before names are clear.
+    Raises:
+        InvalidSpec: ; what else is wrong cannot be told before names are clear.
     """
     faults = Faults()
     taken = {WORLD: "the ground"} | dict.fromkeys(Header.model_fields, "a section of specs")

@@ -39,7 +39,11 @@ class Span:
 
 
 def span(text: str) -> tuple[str, Span]:
-    """An address and the values to look through: `push.strength=0 N:200 N`. Errors: Usage."""
+    """An address and the values to look through: `push.strength=0 N:200 N`.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     address, values = split_setting(text, "--vary")
     pieces = [piece.strip() for piece in values.split(":")]
     found = _span(pieces[0], pieces[1], text) if len(pieces) == 2 else None
@@ -51,7 +55,9 @@ def span(text: str) -> tuple[str, Span]:
 def variants(document: MappingNode, vary: Sequence[str]) -> list[Variant]:
     """Every row of the spec's `study:` combined with every value of each `--vary`.
 
-    Errors: Usage for a `--vary` that is no list of values, InvalidSpec for a bad study.
+    Raises:
+        Usage: A `--vary` that is no list of values.
+        InvalidSpec: A bad study.
     """
     columns = [_column(text) for text in vary]
     base = without(document, "study")
@@ -69,7 +75,8 @@ def variants(document: MappingNode, vary: Sequence[str]) -> list[Variant]:
 def episodes(document: MappingNode) -> list[Variant]:
     """Every episode of the spec's `optimize:`; the spec as it is, if it has none.
 
-    Errors: InvalidSpec for a bad list of episodes.
+    Raises:
+        InvalidSpec: A bad list of episodes.
     """
     section = document.entries.get("optimize")
     inside = section if isinstance(section, MappingNode) else MappingNode({}, {}, document.mark)
@@ -121,7 +128,11 @@ def _range(pieces: list[str], text: str) -> list[str]:
 
 
 def _span(low: str, high: str, text: str) -> Span | None:
-    """What lies between two values; None if one is no number. Errors: Usage for units that do not fit."""
+    """What lies between two values; None if one is no number.
+
+    Raises:
+        Usage: Units that do not fit.
+    """
     try:
         first, last = parse_quantity(low), parse_quantity(high)
     except UnknownUnit as error:

@@ -31,8 +31,10 @@ RELATIVE = 1e-6  # a result has no tolerances of its own; what rounding does to 
 class Tested:
     """What the component does to one user of it.
 
-    what: spec or result. before: the version that its record or its copy was made with. state: holds, differs, same
-    (the version is the recorded one), unrecorded, or error.
+    Attributes:
+        what: Spec or result.
+        before: The version that its record or its copy was made with.
+        state: Holds, differs, same (the version is the recorded one), unrecorded, or error.
     """
 
     what: str
@@ -46,7 +48,10 @@ class Tested:
 def tested(reference: str, scope: Scope, trusted: bool, listener: Listener) -> Iterator[Tested]:
     """Run every user of a component with its present version, and compare with its record.
 
-    One that cannot be run costs only itself. Errors: Usage if there is no such component.
+    One that cannot be run costs only itself.
+
+    Raises:
+        Usage: There is no such component.
     """
     version = scope.version(reference)[:SHORT]
     yield from _of_specs(reference, scope, listener)

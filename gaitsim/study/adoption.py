@@ -30,7 +30,8 @@ class Adoption:
 def adopted(tuning: Tuning, request: Request, workplace: Workplace, progress: Progress, force: bool) -> Adoption:
     """Write the best values of a search beside its spec, unless the values there have a lower score.
 
-    Errors: CannotSave.
+    Raises:
+        CannotSave: The folder cannot be written.
     """
     best = progress.best
     assert best is not None and best.verdict.score is not None

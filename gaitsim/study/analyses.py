@@ -26,11 +26,18 @@ if TYPE_CHECKING:
 class Wanted:
     """What is made of runs that are looked at.
 
-    plot: patterns of signals, or muscles. against: a signal that they are drawn against, instead of time.
-    return_map: signals whose maxima are drawn over the maxima before. export: formats of all signals, such as sto.
-    every: of exports, one instant in such a time as '10 ms'. from_time, to_time: what is looked at, such as '2 s'.
-    video: None makes one unless `only`. gif, speed, fps, size, scopes, view: of the video; size as '1280x720'.
-    formats: of figures. only: no default figures, video or report. folder: where all goes; None for inside the result.
+    Attributes:
+        plot: Patterns of signals, or muscles.
+        against: A signal that they are drawn against, instead of time.
+        return_map: Signals whose maxima are drawn over the maxima before.
+        export: Formats of all signals, such as sto.
+        every: Of exports, one instant in such a time as '10 ms'.
+        from_time, to_time: What is looked at, such as '2 s'.
+        video: None makes one unless `only`.
+        gif, speed, fps, size, scopes, view: Of the video; size as '1280x720'.
+        formats: Of figures.
+        only: No default figures, video or report.
+        folder: Where all goes; None for inside the result.
     """
 
     plot: tuple[str, ...] = ()
@@ -71,8 +78,13 @@ class Analysis:
 def analyzed(openings: Sequence[Opening], candidates: Sequence[str], wanted: Wanted, listener: Listener) -> Analysis:
     """Run results or specs once more, and make what is wanted of them.
 
-    What cannot be made is in the products' `faults`; the rest is made. candidates: of each result.
-    Errors: GaitsimError if nothing can be looked at, or the folder cannot be written.
+    What cannot be made is in the products' `faults`; the rest is made.
+
+    Args:
+        candidates: Of each result.
+
+    Raises:
+        GaitsimError: Nothing can be looked at, or the folder cannot be written.
     """
     from gaitsim.analysis.report.figures import missing
 
@@ -105,7 +117,8 @@ def _opened(
 ) -> list[tuple[Path, str, Opened]]:
     """Path, label and source of each run; what cannot be opened is said.
 
-    Errors: GaitsimError if nothing can be.
+    Raises:
+        GaitsimError: Nothing can be.
     """
     found: list[tuple[Path, str, Opened]] = []
     for opening in openings:
@@ -128,7 +141,11 @@ def _opened(
 def _replayed(
     runs: list[tuple[Path, str, Opened]], window: tuple[float | None, float | None], products: Products
 ) -> list[Replay]:
-    """The runs, as far as they are looked at. Errors: GaitsimError if none has an instant."""
+    """The runs, as far as they are looked at.
+
+    Raises:
+        GaitsimError: None has an instant.
+    """
     from gaitsim.study.replays import replay_of
 
     found: list[Replay] = []
@@ -148,7 +165,12 @@ def _replayed(
 
 
 def _looked_at(replay: Replay, window: tuple[float | None, float | None]) -> Replay:
-    """Errors: SimulationFailed if the run failed before its first instant, Usage if nothing is in the window."""
+    """Cut a run to the window of time.
+
+    Raises:
+        SimulationFailed: The run failed before its first instant.
+        Usage: Nothing is in the window.
+    """
     if not replay.times.size:
         raise SimulationFailed(f"{replay.label}: nothing to look at; the run {replay.ending}")
     if window == (None, None):
@@ -200,7 +222,11 @@ def _default_folder(runs: list[tuple[Path, str, Opened]]) -> Path:
 
 
 def writable(folder: Path) -> Path:
-    """The folder, which can be written to. Errors: CannotSave."""
+    """The folder, which can be written to.
+
+    Raises:
+        CannotSave: The folder cannot be written.
+    """
     from gaitsim.results.store import CannotSave
 
     try:
@@ -213,7 +239,11 @@ def writable(folder: Path) -> Path:
 
 
 def _video_options(wanted: Wanted) -> VideoOptions:
-    """Errors: Usage."""
+    """Read the options of the video.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     from gaitsim.animation.video import VideoOptions, read_size
 
     size = read_size(wanted.size) if wanted.size else None

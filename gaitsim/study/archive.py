@@ -64,12 +64,21 @@ class Archived:
 
     @cached_property
     def rows(self) -> list[Variant]:
-        """Its runs: one, or those of its study. Errors: InvalidSpec."""
+        """Its runs: one, or those of its study.
+
+        Raises:
+            InvalidSpec: The spec breaks a rule.
+        """
         return variants(self.opened.document, [])
 
     @cached_property
     def models(self) -> list[Model]:
-        """The model of each run. Errors: InvalidSpec, InvalidComponent."""
+        """The model of each run.
+
+        Raises:
+            InvalidSpec: The spec breaks a rule.
+            InvalidComponent: A component file breaks the contract.
+        """
         return [self.opened.model(row.document) for row in self.rows]
 
     def made_from(self) -> MadeFrom:
@@ -120,7 +129,8 @@ def versions(library: Library) -> dict[str, str]:
 def archived(words: Sequence[str], folders: Sequence[Path] = ()) -> list[Archived]:
     """The specs that words name: names of shipped specs, specs, and folders of specs; without words all shipped ones.
 
-    Errors: Usage.
+    Raises:
+        Usage: The request does not fit.
     """
     known, extra = shipped_specs(), tuple(folders)
     found: dict[Path, Archived] = {}
@@ -228,7 +238,11 @@ def _nudged(model: Model, share: float) -> Model:
 
 
 def _written(spec: Archived, path: Path, found: Ran | GaitsimError) -> Recording:
-    """Write the record of a spec, if it differs from the one that is there. Errors: GaitsimError."""
+    """Write the record of a spec, if it differs from the one that is there.
+
+    Raises:
+        GaitsimError: The request cannot be carried out.
+    """
     if isinstance(found, GaitsimError):
         raise found
     rows = [_row(spec, i, outcomes) for i, outcomes in enumerate(found)]
@@ -254,7 +268,8 @@ def _written(spec: Archived, path: Path, found: Ran | GaitsimError) -> Recording
 def _row(spec: Archived, index: int, outcomes: Sequence[Outcome]) -> Row:
     """One run as a record has it, from its outcome and those under another gravity, if there are some.
 
-    Errors: SimulationFailed for one of those that fails.
+    Raises:
+        SimulationFailed: One of those that fails.
     """
     first, settings = outcomes[0], spec.rows[index].settings
     if len(outcomes) > 1 and first.status == "failed":

@@ -29,9 +29,13 @@ _SENTENCE = re.compile(r"(?<!\bal)(?<=[a-z)])[.:](?:\s|$)")
 class Entry:
     """One model: its name, what it says of itself and the first sentence of that, and what stands behind it.
 
-    papers: keys of the bibliography that sources of its numbers name, the most frequent first. tuned: the file of its
-    tuned values. extends: the spec that it varies. metrics: value and unit of each as recorded; of a study of its first
-    run. status: how that ended; "no record" without one. reproduces: known values beside those of that run.
+    Attributes:
+        papers: Keys of the bibliography that sources of its numbers name, the most frequent first.
+        tuned: The file of its tuned values.
+        extends: The spec that it varies.
+        metrics: Value and unit of each as recorded; of a study of its first run.
+        status: How that ended; "no record" without one.
+        reproduces: Known values beside those of that run.
     """
 
     name: str
@@ -55,7 +59,10 @@ def entries(specs: Sequence[Archived], listener: Listener) -> Iterator[Entry]:
 
 
 def _entry(spec: Archived) -> Entry:
-    """Errors: InvalidSpec, BadRecord for one that was edited."""
+    """Raises:
+    InvalidSpec: The spec breaks a rule.
+    BadRecord: One that was edited.
+    """
     path = spec.path
     about = " ".join(str(plain(read(path)).get("about", "")).split())
     document = with_parents(path, shown(path))
@@ -75,7 +82,11 @@ def _entry(spec: Archived) -> Entry:
 
 
 def _known(spec: Archived, document: MappingNode, recorded: dict[str, str]) -> tuple[KnownValue, ...]:
-    """The known values of a spec; `recorded` has the units of metrics. Errors: InvalidSpec."""
+    """The known values of a spec; `recorded` has the units of metrics.
+
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+    """
     faults = Faults()
     head, document = header(document, faults)
     faults.raise_if_any()

@@ -21,7 +21,11 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Pair:
-    """A number that both runs may have; nan for none. unit: of both."""
+    """A number that both runs may have; nan for none.
+
+    Attributes:
+        unit: Of both.
+    """
 
     name: str
     unit: str
@@ -43,8 +47,13 @@ class Pair:
 class Comparison:
     """How two runs differ.
 
-    labels: what they are called. changes: of their models. metrics: what their measures say, and their costs.
-    gait: means over strides, of two walkers. replays: the runs. products: figures, with what could not be made.
+    Attributes:
+        labels: What they are called.
+        changes: Of their models.
+        metrics: What their measures say, and their costs.
+        gait: Means over strides, of two walkers.
+        replays: The runs.
+        products: Figures, with what could not be made.
     """
 
     labels: tuple[str, str]

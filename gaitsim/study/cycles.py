@@ -27,10 +27,15 @@ _ROUNDS = 30
 class Cycle:
     """A periodic gait.
 
-    start: parameters of the spec at its section, such as `initial_apex_height`. metrics: the signals of all sections,
-    after a whole cycle. Both are in SI; units: those that they have outside. eigenvalues: those of the map, the
-    greatest first. slopes: its derivatives, a row for each number of the start. period: from section to section,
-    in s. distance: how far the gait still is from itself, in SI. runs: how many simulations it took.
+    Attributes:
+        start: Parameters of the spec at its section, such as `initial_apex_height`.
+        metrics: The signals of all sections, after a whole cycle. Both are in SI.
+        units: Those that they have outside.
+        eigenvalues: Those of the map, the greatest first.
+        slopes: Its derivatives, a row for each number of the start.
+        period: From section to section, in s.
+        distance: How far the gait still is from itself, in SI.
+        runs: How many simulations it took.
     """
 
     start: Mapping[str, float]
@@ -56,7 +61,9 @@ class Cycle:
 class ReturnMap:
     """The map from numbers at a section to those at its next passage.
 
-    names: parameters of the spec. measures: for each the section whose signal it is at the next passage.
+    Attributes:
+        names: Parameters of the spec.
+        measures: For each the section whose signal it is at the next passage.
     """
 
     model: Model
@@ -179,7 +186,11 @@ def _cycle(of: ReturnMap, start: Floats, slopes: Floats, distance: float) -> Cyc
 
 
 def _pairs(model: Model, path: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Parameters `initial_NAME` of the spec, and the sections of that NAME. Errors: Usage."""
+    """Parameters `initial_NAME` of the spec, and the sections of that NAME.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     sections = _sections(model)
     known = {number.address for number in model.numbers}
     names = [name for name in sections if f"{_INITIAL}{name}" in known]
@@ -199,7 +210,11 @@ def _sections(model: Model) -> list[str]:
 
 
 def _freed(model: Model, addresses: Sequence[str]) -> Model:
-    """The model with more free numbers, last and in this order. Errors: InvalidSpec for one that is no plain number."""
+    """The model with more free numbers, last and in this order.
+
+    Raises:
+        InvalidSpec: One that is no plain number.
+    """
     numbers, free = [*model.numbers], [*model.free]
     at = {number.address: i for i, number in enumerate(model.numbers)}
     values = model.values()

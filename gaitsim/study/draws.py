@@ -20,7 +20,11 @@ _WITHIN, _SEED = "1 %", 1
 def draws_asked(
     count: int | None, within: str | None, seed: int | None, vary: Sequence[str], out: Path | None
 ) -> Draws | None:
-    """What --draws, --within and --seed ask for; None if nothing. Errors: Usage, also for what goes not with them."""
+    """What --draws, --within and --seed ask for; None if nothing.
+
+    Raises:
+        Usage: Also for what goes not with them.
+    """
     if count is None:
         for option, value in (("--within", within), ("--seed", seed)):
             if value is not None:
@@ -42,7 +46,9 @@ def draws_asked(
 def drawn_models(models: Sequence[Model], draws: Draws, spec: Path) -> tuple[list[Model], list[str]]:
     """The one model at each draw, and what is to be said of it: which values no draw changes.
 
-    Errors: Usage if a study gave more models than one, InvalidSpec if nothing is tuned.
+    Raises:
+        Usage: A study gave more models than one.
+        InvalidSpec: Nothing is tuned.
     """
     from gaitsim.results.tuned import problem_of
 
@@ -60,7 +66,11 @@ def drawn_models(models: Sequence[Model], draws: Draws, spec: Path) -> tuple[lis
 
 
 def _share(text: str) -> float:
-    """A share such as "1 %" or 0.01. Errors: Usage."""
+    """A share such as "1 %" or 0.01.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     try:
         quantity = parse_quantity(text)
     except UnknownUnit:

@@ -29,7 +29,9 @@ _FORMATS = {
 
 
 def refuse_foreign(path: Path) -> None:
-    """Errors: InvalidSpec for a file whose name ends as those of another format do."""
+    """Raises:
+    InvalidSpec: A file whose name ends as those of another format do.
+    """
     known = _FORMATS.get(path.suffix.lower())
     if known is not None and path.is_file():
         what, move = known

@@ -47,7 +47,12 @@ class Keeping:
                 self._record.add(settings, outcome, *([more] if more else []))
 
     def go_on(self, folder: Path, rows: list[dict[str, Any]]) -> None:
-        """Keep the runs that come in a folder that has some. Errors: CannotSave, Locked."""
+        """Keep the runs that come in a folder that has some.
+
+        Raises:
+            CannotSave: The folder cannot be written.
+            Locked: Another process writes this result.
+        """
         self._root = folder.parent
         self._record = self._begun(self._root)
         self._record.go_on(folder, rows, dict(self._opened.manifest))

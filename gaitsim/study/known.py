@@ -14,8 +14,9 @@ from gaitsim.units import parse_unit
 class Compared:
     """A known value, and that of the model as recorded, both in `unit`.
 
-    model: None where the record has none. tolerance: a difference up to which they count as the same; None if the spec
-    says nothing.
+    Attributes:
+        model: None where the record has none.
+        tolerance: A difference up to which they count as the same; None if the spec says nothing.
     """
 
     what: str

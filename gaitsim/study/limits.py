@@ -36,7 +36,8 @@ _FINEST = 1e-6
 class Until:
     """What ends the range of a number: that runs do not complete, or that a metric comes to a value.
 
-    value: in the metric's unit.
+    Attributes:
+        value: In the metric's unit.
     """
 
     metric: str = ""
@@ -65,7 +66,11 @@ class Until:
 
 
 def until_of(text: str | None, model: Model) -> Until:
-    """What `--until METRIC=VALUE` asks for. Errors: Usage."""
+    """What `--until METRIC=VALUE` asks for.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     if text is None:
         if not any(part.measure and "stop" in part.type.outputs for part in model.parts):
             rule = "no measure of this spec ends a run"
@@ -86,14 +91,20 @@ def until_of(text: str | None, model: Model) -> Until:
 class Scan:
     """How a range is looked through.
 
-    points: values of the first scan, both ends among them. tolerance: how exactly, in parts of the range.
+    Attributes:
+        points: Values of the first scan, both ends among them.
+        tolerance: How exactly, in parts of the range.
     """
 
     points: int = 9
     tolerance: float = 0.01
 
     def check(self) -> None:
-        """Errors: Usage."""
+        """Check the request before anything runs.
+
+        Raises:
+            Usage: The request does not fit.
+        """
         if self.points < 2:
             raise Usage(f"--points {self.points}: a scan has at least 2 values, the two ends.")
         if not _FINEST <= self.tolerance <= 1:
@@ -142,8 +153,11 @@ Row = tuple[dict[str, str], Outcome]
 class Hunt:
     """Limits of several numbers of one document, each varied alone.
 
-    settings: of the document, as a row of a study says them. rows: of every run, in order. keeping: what is kept of
-    them, run by run. before: runs that an earlier hunt, which did not come to its end, has made.
+    Attributes:
+        settings: Of the document, as a row of a study says them.
+        rows: Of every run, in order.
+        keeping: What is kept of them, run by run.
+        before: Runs that an earlier hunt, which did not come to its end, has made.
     """
 
     opened: Opened
@@ -164,8 +178,13 @@ class Hunt:
     def run(self, listener: Listener) -> None:
         """Find all limits, and keep each run as it ends.
 
-        What cannot be kept is `keeping.error`. Errors: SimulationFailed if a range does not hold at its first end;
-        InvalidSpec, InvalidComponent; KeyboardInterrupt, with the runs before it kept.
+        What cannot be kept is `keeping.error`.
+
+        Raises:
+            SimulationFailed: A range does not hold at its first end.
+            InvalidSpec: The spec breaks a rule.
+            InvalidComponent: A component file breaks the contract.
+            KeyboardInterrupt: With the runs before it kept.
         """
         hear, most = listener.progress("runs"), sum(limit.bracket.most for limit in self.limits)
         try:
@@ -213,7 +232,11 @@ class Hunt:
         return self.opened.model(override(self.document, limit.address, limit.at(share), "--vary"))
 
     def _check_begun(self) -> None:
-        """Errors: SimulationFailed that names every range without a first value that holds."""
+        """Refuse ranges whose first value already fails.
+
+        Raises:
+            SimulationFailed: That names every range without a first value that holds.
+        """
         faults = []
         for limit in self.limits:
             if not limit.bracket.held[0.0]:
@@ -236,9 +259,18 @@ def hunted(
 ) -> Hunt:
     """The limits that are to be found of what is opened; nothing is run yet.
 
-    vary: what goes how far, each as ADDRESS=FROM:TO. until: METRIC=VALUE that ends it, or None for a run that does
-    not complete. origin: as of `started_from`. root: where the result folder goes; None keeps nothing.
-    Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted.
+    Args:
+        vary: What goes how far, each as ADDRESS=FROM:TO.
+        until: METRIC=VALUE that ends it, or None for a run that does not complete.
+        origin: As of `started_from`.
+        root: Where the result folder goes; None keeps nothing.
+
+    Raises:
+        Usage: The request does not fit.
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
+        BadResult: The folder is not a result, or the result is damaged.
+        Untrusted: The result has components that this machine does not trust.
     """
     scan.check()
     limits = [Limit(*span(text), Bracket(scan.points, scan.tolerance)) for text in vary]
@@ -256,7 +288,14 @@ def hunted(
 def resumed(opening: Opening, listener: Listener) -> Hunt:
     """The limits that a result began to look for; what it has of them is not run again.
 
-    Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted, Locked, CannotSave.
+    Raises:
+        Usage: The request does not fit.
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
+        BadResult: The folder is not a result, or the result is damaged.
+        Untrusted: The result has components that this machine does not trust.
+        Locked: Another process writes this result.
+        CannotSave: The folder cannot be written.
     """
     if not opening.names_result:
         rule = f"{opening.path} is a spec; name the result of the limits that were begun"
@@ -280,7 +319,12 @@ def resumed(opening: Opening, listener: Listener) -> Hunt:
 
 
 def _recorded(folder: Path, manifest: Mapping[str, Any]) -> tuple[dict[str, Any], list[Limit]]:
-    """What a result says of the limits that it looks for. Errors: BadResult, Usage."""
+    """What a result says of the limits that it looks for.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+        Usage: The request does not fit.
+    """
     if "limit" not in manifest:
         raise BadResult(f"{folder}: this is no result of gaitsim limit, so there is nothing to resume.")
     try:

@@ -22,7 +22,8 @@ _UNCOMMITTED = "as it stands now"
 class Version:
     """One version of a component: the first letters of its digest, since when, from where, and who uses it.
 
-    origin: a commit with its author and subject, a result, or that it stands so now.
+    Attributes:
+        origin: A commit with its author and subject, a result, or that it stands so now.
     """
 
     digest: str

@@ -9,7 +9,8 @@ from pathlib import Path
 def write_new(files: Mapping[Path, str], move: str) -> None:
     """Write texts to files that do not exist yet, with their folders; `move` is what helps where that fails.
 
-    Errors: CannotSave, with nothing left behind.
+    Raises:
+        CannotSave: With nothing left behind.
     """
     from gaitsim.results.store import CannotSave
 

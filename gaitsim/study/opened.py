@@ -65,8 +65,14 @@ class Opened:
 def open_result(folder: Path, settings: Sequence[str], trusted: bool, candidate: str | None) -> Opened:
     """A result's own spec and components, started at one of its candidates.
 
-    candidate: of a search (best if None), or a run of a study; None leaves a study what it is.
-    Errors: BadResult, Untrusted, InvalidSpec, Usage.
+    Args:
+        candidate: Of a search (best if None), or a run of a study; None leaves a study what it is.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+        Untrusted: The result has components that this machine does not trust.
+        InvalidSpec: The spec breaks a rule.
+        Usage: The request does not fit.
     """
     manifest, bundle = read_result(folder)
     check_trust(bundle, trusted)

@@ -18,11 +18,15 @@ if TYPE_CHECKING:
 class Opening:
     """A spec or a result folder, and everything that says how it is opened.
 
-    path: the spec, or the result folder. settings: overrides of the spec, each as ADDRESS=VALUE.
-    folders: of more components. tuned: start at the tuned values beside the spec, if there are some.
-    trusted: run components of a result that this machine does not know. candidate: of a result, which one:
-    best, a rank or GENERATION:INDEX of a search, best or the number of a run of a study. results: the folder in which
-    the name of another result is looked up, if not the usual one.
+    Attributes:
+        path: The spec, or the result folder.
+        settings: Overrides of the spec, each as ADDRESS=VALUE.
+        folders: Of more components.
+        tuned: Start at the tuned values beside the spec, if there are some.
+        trusted: Run components of a result that this machine does not know.
+        candidate: Of a result, which one: best, a rank or GENERATION:INDEX of a search, best or the number of a run of
+            a study.
+        results: The folder in which the name of another result is looked up, if not the usual one.
     """
 
     path: Path
@@ -56,11 +60,20 @@ class Opening:
         return _tuned(self) if self.tuned else _as_written(self)
 
     def library(self) -> Library:
-        """The components that the spec can use. Errors: Usage."""
+        """The components that the spec can use.
+
+        Raises:
+            Usage: The request does not fit.
+        """
         return open_library(self.path, self.folders)
 
     def document(self) -> MappingNode:
-        """The spec with its settings. Errors: InvalidSpec, Usage."""
+        """The spec with its settings.
+
+        Raises:
+            InvalidSpec: The spec breaks a rule.
+            Usage: The request does not fit.
+        """
         from gaitsim.spec.inheritance import split_setting
         from gaitsim.spec.resolve import read_spec
         from gaitsim.study.foreign import refuse_foreign
@@ -72,7 +85,8 @@ class Opening:
 def open_library(spec: Path | None, folders: Sequence[Path]) -> Library:
     """The components that a spec can use.
 
-    Errors: Usage if a folder is missing, or if the spec is the copy that a result holds.
+    Raises:
+        Usage: A folder is missing, or if the spec is the copy that a result holds.
     """
     from gaitsim.components.find import Library, library_folders
     from gaitsim.errors import Usage
@@ -133,8 +147,14 @@ def _tunes_what(opened: Opened, parent: Opening) -> bool:
 def started_from(opened: Opened, opening: Opening, origin: str | None) -> tuple[Opened, list[str]]:
     """The source of a spec with starts from where `--from` says, and what matched.
 
-    origin: tuned (values beside the spec or its nearest parent with some), middle, or a result folder; None changes
-    nothing. Errors: Usage, BadResult, Untrusted.
+    Args:
+        origin: Tuned (values beside the spec or its nearest parent with some), middle, or a result folder; None changes
+            nothing.
+
+    Raises:
+        Usage: The request does not fit.
+        BadResult: The folder is not a result, or the result is damaged.
+        Untrusted: The result has components that this machine does not trust.
     """
     from gaitsim.errors import Usage
     from gaitsim.results.manifest import result_named
@@ -166,7 +186,11 @@ def started_from(opened: Opened, opening: Opening, origin: str | None) -> tuple[
 
 
 def only_row(opened: Opened, path: Path) -> Variant:
-    """The one run of a source that is no study. Errors: Usage."""
+    """The one run of a source that is no study.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     from gaitsim.errors import Usage
     from gaitsim.spec.study import variants
 

@@ -26,8 +26,10 @@ T = TypeVar("T")
 class Products:
     """Files that were made in a folder, and what could not be made.
 
-    faults: what the user must mend. lacks: what the model or this machine has not, which is no failure.
-    listener: hears what could not be made, and how far it is.
+    Attributes:
+        faults: What the user must mend.
+        lacks: What the model or this machine has not, which is no failure.
+        listener: Hears what could not be made, and how far it is.
     """
 
     folder: Path
@@ -155,7 +157,12 @@ def _renamed(drawing: Drawing, taken: set[str]) -> Drawing:
 
 
 def _write(replay: Replay, path: Path, every: float | None) -> Path:
-    """Errors: OSError, Usage."""
+    """Write all signals of a run to a file.
+
+    Raises:
+        OSError: The file cannot be read or written.
+        Usage: The request does not fit.
+    """
     from gaitsim.analysis.replays.replay import dataset
 
     if every is not None:

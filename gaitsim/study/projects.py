@@ -164,7 +164,11 @@ def new_project(name: str, origin: str, place: Path, results: Path | None = None
 
 
 def _free_folder(name: str, lab: Path) -> Path:
-    """Errors: Usage for a name that cannot be one, or that is taken."""
+    """Find the folder of a new project.
+
+    Raises:
+        Usage: A name that cannot be one, or that is taken.
+    """
     if not _NAME.fullmatch(name):
         rule = "a project's name is that of its folder and its spec: letters, digits, _ and -, a letter first"
         raise Usage(f"{name}: {rule}; choose such a name.")
@@ -178,7 +182,9 @@ def _free_folder(name: str, lab: Path) -> Path:
 
 
 def _opening(origin: str, results: Path | None, trusted: bool) -> Opening:
-    """Errors: Usage for what is neither a result nor a spec."""
+    """Raises:
+    Usage: For what is neither a result nor a spec.
+    """
     named = result_named(Path(origin), results)
     if is_result(named):
         return Opening(named, trusted=trusted)

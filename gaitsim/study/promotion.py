@@ -37,9 +37,13 @@ _LINES = 25  # of a test that fails
 class Request:
     """What is to be promoted, and how.
 
-    origin: the folder of kinds that it is in. target: the library that it goes to. test: its file. replace: put it in
-    the place of one that is there, if no user of that changes. force: also if some do. scope: where users are
-    looked for.
+    Attributes:
+        origin: The folder of kinds that it is in.
+        target: The library that it goes to.
+        test: Its file.
+        replace: Put it in the place of one that is there, if no user of that changes.
+        force: Also if some do.
+        scope: Where users are looked for.
     """
 
     reference: str
@@ -81,7 +85,8 @@ def asked(
 ) -> Request:
     """The request that options make: from the project here into the library of its lab, unless they say otherwise.
 
-    Errors: Usage.
+    Raises:
+        Usage: The request does not fit.
     """
     here = origin or project_of(Path.cwd()) or Path()
     folder = here / "components" if (here / "components").is_dir() else here
@@ -128,7 +133,11 @@ def promoted(request: Request, listener: Listener) -> Promoted:
 
 
 def _reviewed(request: Request) -> ComponentFile:
-    """The component, if a library may have it. Errors: InvalidComponent."""
+    """The component, if a library may have it.
+
+    Raises:
+        InvalidComponent: A component file breaks the contract.
+    """
     library = Library((request.origin, *_behind(request.target)))
     faults = review(request.reference, library)
     if faults:
@@ -149,7 +158,8 @@ def _behind(target: Path) -> tuple[Path, ...]:
 def _physics_test(request: Request) -> str:
     """The text of the test, as it stands beside the library.
 
-    Errors: InvalidComponent if there is none, or none of physics.
+    Raises:
+        InvalidComponent: There is none, or none of physics.
     """
     path, name = request.test, request.reference
     place = Mark(shown(path))
@@ -204,7 +214,11 @@ def _files(request: Request, component: ComponentFile, test: str) -> dict[Path, 
 
 
 def _taken(request: Request, files: Mapping[Path, str]) -> bool:
-    """Whether a component of this name is there already. Errors: Usage if it may not be replaced."""
+    """Whether a component of this name is there already.
+
+    Raises:
+        Usage: It may not be replaced.
+    """
     known = Library(_behind(request.target)).file(request.reference)
     for path, text in files.items():
         other = path.is_file() and path.name != FILE and path.read_text(encoding="utf-8") != text
@@ -229,7 +243,12 @@ def _stage(stage: Path, request: Request, files: Mapping[Path, str]) -> None:
 
 
 def _run_test(staged: Path, own: Path) -> None:
-    """Errors: InvalidComponent if the test fails, Usage without pytest."""
+    """Run the test of the component with pytest.
+
+    Raises:
+        InvalidComponent: The test fails.
+        Usage: Without pytest.
+    """
     if importlib.util.find_spec("pytest") is None:
         raise Usage("promoting a component runs its test with pytest, which is not installed: pip install pytest")
     words = [
@@ -257,7 +276,11 @@ def _users(request: Request, stage: Path, listener: Listener) -> tuple[Tested, .
 
 
 def _write(request: Request, files: Mapping[Path, str]) -> None:
-    """Write all files, or none. Errors: CannotSave."""
+    """Write all files, or none.
+
+    Raises:
+        CannotSave: The folder cannot be written.
+    """
     before = {path: path.read_text(encoding="utf-8") if path.is_file() else None for path in files}
     done: list[Path] = []
     try:

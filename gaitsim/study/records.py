@@ -36,7 +36,9 @@ class _Model(BaseModel):
 class Value(_Model):
     """A number in its unit, and how far another may be from it.
 
-    value: None where there was none. tolerance: None for a number that rounding decides, which is not compared.
+    Attributes:
+        value: None where there was none.
+        tolerance: None for a number that rounding decides, which is not compared.
     """
 
     value: float | None
@@ -55,7 +57,8 @@ class Value(_Model):
 class Row(_Model):
     """One run: what it sets, how it ended, and its numbers: steps, score and metrics.
 
-    status: also several, such as "completed or stopped", where rounding decides which.
+    Attributes:
+        status: Also several, such as "completed or stopped", where rounding decides which.
     """
 
     settings: dict[str, str] = {}
@@ -111,7 +114,11 @@ def record_text(recorded: Recorded) -> str:
 
 
 def write_record(spec: Path, recorded: Recorded) -> Path:
-    """Write the record of a spec; its path. Errors: OSError."""
+    """Write the record of a spec; its path.
+
+    Raises:
+        OSError: The file cannot be read or written.
+    """
     path = record_path(spec)
     path.parent.mkdir(parents=True, exist_ok=True)
     write_whole(path, record_text(recorded))
@@ -121,7 +128,8 @@ def write_record(spec: Path, recorded: Recorded) -> Path:
 def read_record(spec: Path) -> Recorded:
     """The record of a spec.
 
-    Errors: BadRecord if there is none, or if it is not as the command wrote it.
+    Raises:
+        BadRecord: There is none, or if it is not as the command wrote it.
     """
     path, again = record_path(spec), command("archive", "record", spec.stem if spec.is_absolute() else spec)
     if not path.is_file():

@@ -16,7 +16,9 @@ from gaitsim.study.verify import differences
 def replay_of(opened: Opened, path: Path, label: str = "", duration: float | None = None) -> Replay:
     """Run a source, and note what its reader should know: other versions, a search that has not ended.
 
-    Errors: InvalidSpec, InvalidComponent.
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
     """
     model, starts = opened.model(), Starts(opened)
     manifest = dict(opened.manifest)

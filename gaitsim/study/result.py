@@ -24,14 +24,12 @@ if TYPE_CHECKING:
 class Result:
     """A result folder and one of its candidates; nothing is run before something is asked for.
 
-    >>> best = gaitsim.load("results/2026-11-22-hopping-3f9c")
-    >>> best.metrics["apex_height"]
-    >>> best.parameters()
-    >>> signals = best.trajectory()
-    >>> signals["extensor.force"].sel(time=slice(1, 2)).plot()
+    >>> best = gaitsim.load("results/2026-11-22-hopping-3f9c") >>> best.metrics["apex_height"] >>> best.parameters() >>>
+    signals = best.trajectory() >>> signals["extensor.force"].sel(time=slice(1, 2)).plot()
 
-    candidate: best, a rank, or GENERATION:INDEX of a search; of a study best, or the number of a run.
-    trust: run components that this machine does not know.
+    Attributes:
+        candidate: Best, a rank, or GENERATION:INDEX of a search; of a study best, or the number of a run.
+        trust: Run components that this machine does not know.
     """
 
     folder: Path
@@ -40,12 +38,22 @@ class Result:
 
     @cached_property
     def manifest(self) -> dict[str, Any]:
-        """Status, versions, machine, commit, command, search. Errors: BadResult."""
+        """Status, versions, machine, commit, command, search.
+
+        Raises:
+            BadResult: The folder is not a result, or the result is damaged.
+        """
         return read_manifest(self.folder)
 
     @cached_property
     def opened(self) -> Opened:
-        """Spec, components and starts of the candidate. Errors: BadResult, Untrusted, Usage."""
+        """Spec, components and starts of the candidate.
+
+        Raises:
+            BadResult: The folder is not a result, or the result is damaged.
+            Untrusted: The result has components that this machine does not trust.
+            Usage: The request does not fit.
+        """
         return open_result(self.folder, (), self.trust, self.candidate)
 
     @cached_property
@@ -79,7 +87,8 @@ class Result:
     def history(self) -> pandas.DataFrame:
         """A row for each generation of a search: evaluations, scores (costs), failed candidates.
 
-        Errors: BadResult for a run, or a search without a whole generation.
+        Raises:
+            BadResult: A run, or a search without a whole generation.
         """
         import pandas
 
@@ -111,12 +120,20 @@ class Result:
 
 
 def _number(text: str) -> float | int:
-    """A cell of a table; nan if it is empty. Errors: ValueError."""
+    """A cell of a table; nan if it is empty.
+
+    Raises:
+        ValueError: The expression has no value.
+    """
     return int(text) if text.isdecimal() else float(text or math.nan)
 
 
 def load(folder: str | Path, candidate: str = "best", trust: bool = False) -> Result:
-    """A result by its folder, or by its name in the usual one. Errors: BadResult if it is none, or is damaged."""
+    """A result by its folder, or by its name in the usual one.
+
+    Raises:
+        BadResult: It is none, or is damaged.
+    """
     made = Result(result_named(Path(folder)), str(candidate), trust)
     _ = made.manifest
     return made

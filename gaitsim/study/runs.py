@@ -33,8 +33,10 @@ if TYPE_CHECKING:
 class Places:
     """Where runs go.
 
-    results: the folder of result folders; None keeps none. out: a CSV file for all signals of a single run.
-    every: of `out`, one instant in such a time as '10 ms'; None for all.
+    Attributes:
+        results: The folder of result folders; None keeps none.
+        out: A CSV file for all signals of a single run.
+        every: Of `out`, one instant in such a time as '10 ms'; None for all.
     """
 
     results: Path | None
@@ -42,7 +44,11 @@ class Places:
     every: str | None = None
 
     def check(self) -> None:
-        """What will not be written is said before anything is simulated. Errors: CannotSave."""
+        """What will not be written is said before anything is simulated.
+
+        Raises:
+            CannotSave: The folder cannot be written.
+        """
         from gaitsim.results.store import CannotSave
 
         out, results = self.out, self.results
@@ -58,7 +64,11 @@ class Places:
             )
 
     def spacing(self, models: Sequence[Model]) -> float | None:
-        """Seconds from one instant of `out` to the next; None for all. Errors: Usage."""
+        """Seconds from one instant of `out` to the next; None for all.
+
+        Raises:
+            Usage: The request does not fit.
+        """
         from gaitsim.simulation.outcome import steps_in
 
         spacing = seconds_of("--every", self.every)
@@ -74,8 +84,12 @@ class Places:
 class Runs:
     """Runs, and their outcomes as far as they were made.
 
-    rows: what each run sets. models: of the rows that are valid; of draws, the one that they are around. simulated: the
-    model of each run, or why it has none. notices: what a reader should know. outcomes: in the order of the rows.
+    Attributes:
+        rows: What each run sets.
+        models: Of the rows that are valid; of draws, the one that they are around.
+        simulated: The model of each run, or why it has none.
+        notices: What a reader should know.
+        outcomes: In the order of the rows.
     """
 
     rows: Sequence[Variant]
@@ -133,8 +147,12 @@ class Runs:
     def run(self, listener: Listener) -> None:
         """Simulate, and keep each run as it ends.
 
-        What cannot be kept is `unsaved`. Errors: InvalidSpec, InvalidComponent; KeyboardInterrupt, with the runs
-        before it kept.
+        What cannot be kept is `unsaved`.
+
+        Raises:
+            InvalidSpec: The spec breaks a rule.
+            InvalidComponent: A component file breaks the contract.
+            KeyboardInterrupt: With the runs before it kept.
         """
         try:
             for row, outcome in zip(self.rows, self._outcomes(listener), strict=True):
@@ -185,8 +203,16 @@ def prepared(
 ) -> Runs:
     """The runs of what is opened, resolved and not begun.
 
-    vary: values to run, each as ADDRESS=VALUES.
-    Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted, CannotSave.
+    Args:
+        vary: Values to run, each as ADDRESS=VALUES.
+
+    Raises:
+        Usage: The request does not fit.
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
+        BadResult: The folder is not a result, or the result is damaged.
+        Untrusted: The result has components that this machine does not trust.
+        CannotSave: The folder cannot be written.
     """
     opened = opening.open()
     rows = variants(opened.document, vary)

@@ -41,7 +41,9 @@ _LEAST = {"population": 2, "generations": 1, "seed": 0}
 class Request:
     """What is asked of a search; None where nothing is said, and the spec decides.
 
-    opening: untuned, as a search starts at the numbers that the spec has. origin: as of `started_from`.
+    Attributes:
+        opening: Untuned, as a search starts at the numbers that the spec has.
+        origin: As of `started_from`.
     """
 
     opening: Opening
@@ -61,7 +63,11 @@ class Request:
 
 
 def check_adoption(opening: Opening, adopt: bool, force: bool) -> None:
-    """Errors: Usage for an adoption that cannot be."""
+    """Check that the result of a search can be adopted.
+
+    Raises:
+        Usage: An adoption that cannot be.
+    """
     if force and not adopt:
         raise Usage("--force is of --adopt: it replaces better values; add --adopt, or leave it out.")
     if adopt and opening.names_result:
@@ -105,7 +111,11 @@ def begun(request: Request, root: Path) -> Tuning:
 def resumed(request: Request, root: Path) -> Tuning:
     """A search that was begun before: the folder named, or the newest one of the spec.
 
-    Errors: BadResult, DamagedJournal, Usage, InvalidSpec if the spec has changed.
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+        DamagedJournal: The journal is damaged.
+        Usage: The request does not fit.
+        InvalidSpec: The spec has changed.
     """
     _check_beside_resume(request)
     folder = request.opening.path if request.opening.names_result else _newest(request.opening.path, root)
@@ -131,7 +141,11 @@ def resumed(request: Request, root: Path) -> Tuning:
 
 
 def _check_links(folder: Path) -> None:
-    """A search writes into its folder, and through no link into another file. Errors: BadResult."""
+    """A search writes into its folder, and through no link into another file.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+    """
     links = sorted(path for path in folder.iterdir() if path.is_symlink())
     if links:
         rule = "this is a link, and a search that goes on would write to what it leads to"
@@ -139,7 +153,11 @@ def _check_links(folder: Path) -> None:
 
 
 def _check_beside_resume(request: Request) -> None:
-    """What a search that goes on cannot be told. Errors: Usage."""
+    """What a search that goes on cannot be told.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     if request.origin is not None or request.smoke:
         option = "--smoke" if request.smoke else "--from"
         raise Usage(f"{option} begins a new search, and --resume continues an old one; leave one out.")
@@ -150,7 +168,11 @@ def _check_beside_resume(request: Request) -> None:
 
 
 def _check_same_search(request: Request, search: dict[str, Any], mode: str) -> None:
-    """A search goes on as it was begun, but for its generations. Errors: Usage."""
+    """A search goes on as it was begun, but for its generations.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     for name in ("algorithm", "population", "seed"):
         asked = getattr(request, name)
         if asked is not None and asked != search[name]:
@@ -161,7 +183,11 @@ def _check_same_search(request: Request, search: dict[str, Any], mode: str) -> N
 
 
 def _recorded_search(folder: Path, manifest: dict[str, Any]) -> dict[str, Any]:
-    """How a search was begun. Errors: BadResult."""
+    """How a search was begun.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+    """
     try:
         found = SearchSection.model_validate(manifest["search"]).model_dump()
         if found["algorithm"] not in ALGORITHMS or not isinstance(manifest["versions"], dict):
@@ -173,7 +199,11 @@ def _recorded_search(folder: Path, manifest: dict[str, Any]) -> dict[str, Any]:
 
 
 def _check_least(numbers: Mapping[str, int | None]) -> None:
-    """Errors: Usage for a number that is too small."""
+    """Check that numbers of the request are large enough.
+
+    Raises:
+        Usage: A number that is too small.
+    """
     for name, number in numbers.items():
         if number is not None and number < _LEAST[name]:
             raise Usage(f"--{name} {number}: this is at least {_LEAST[name]}.")

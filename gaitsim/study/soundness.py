@@ -32,10 +32,13 @@ if TYPE_CHECKING:
 class Soundness:
     """What a check found of a spec that is valid.
 
-    rows, models: of its study; one without a study. notices: what a reader should know. doubts: what is unusual.
-    arms: of each path about each hinge.
-    known: values that it reproduces, beside its record as far as there is one. convergence: of each model, what a half
-    and a quarter of the step change.
+    Attributes:
+        rows, models: Of its study; one without a study.
+        notices: What a reader should know.
+        doubts: What is unusual.
+        arms: Of each path about each hinge.
+        known: Values that it reproduces, beside its record as far as there is one.
+        convergence: Of each model, what a half and a quarter of the step change.
     """
 
     rows: Sequence[Variant]
@@ -53,7 +56,12 @@ class Soundness:
 def checked(opening: Opening, convergence: bool, listener: Listener) -> Soundness:
     """Resolve and compile what is opened; simulate it only for its convergence.
 
-    Errors: InvalidSpec with all faults, InvalidComponent, BadResult, Untrusted, Usage.
+    Raises:
+        InvalidSpec: With all faults.
+        InvalidComponent: A component file breaks the contract.
+        BadResult: The folder is not a result, or the result is damaged.
+        Untrusted: The result has components that this machine does not trust.
+        Usage: The request does not fit.
     """
     opened = opening.open()
     rows = variants(opened.document, [])

@@ -21,7 +21,11 @@ class Starts:
         self.unusual: list[Fault] = []
 
     def look_at(self, simulator: Simulator) -> None:
-        """Errors: InvalidSpec for a start that cannot be meant."""
+        """Examine the first instant of a model.
+
+        Raises:
+            InvalidSpec: A start that cannot be meant.
+        """
         from gaitsim.simulation.starting import start_doubts
 
         doubts = start_doubts(simulator)

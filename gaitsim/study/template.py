@@ -54,7 +54,8 @@ parts:
 def study(origin: str) -> dict[str, str]:
     """The files of a new folder that begins with a shipped spec.
 
-    Errors: Usage.
+    Raises:
+        Usage: The request does not fit.
     """
     specs = shipped_specs()
     if origin not in specs:

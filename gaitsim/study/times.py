@@ -10,7 +10,11 @@ _TIME = "write a time, such as '2 s' or '300 ms'."
 
 
 def seconds_of(option: str, text: str | None) -> float | None:
-    """A time such as '2 s', '300 ms' or 2. Errors: Usage."""
+    """A time such as '2 s', '300 ms' or 2.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     if text is None:
         return None
     try:

@@ -52,7 +52,11 @@ class Tuning:
     def run(self, workplace: Workplace, watch: Callable[[Progress], None], say: Callable[[str], None]) -> Progress:
         """Search, and leave the folder complete; or interrupted, with everything in its journal.
 
-        Errors: Locked, CannotSave, ClusterError, DamagedJournal.
+        Raises:
+            Locked: Another process writes this result.
+            CannotSave: The folder cannot be written.
+            ClusterError: The cluster fails or cannot be reached.
+            DamagedJournal: The journal is damaged.
         """
         try:
             with Lock(self.folder):

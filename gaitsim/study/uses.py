@@ -42,8 +42,10 @@ class UsingResult:
 class Scope:
     """Where users of components are looked for.
 
-    words: specs and folders of specs; none for the shipped ones, those right here, and those of the lab's projects.
-    results: folders of results. folders: of more components, before all others but those beside a spec.
+    Attributes:
+        words: Specs and folders of specs; none for the shipped ones, those right here, and those of the lab's projects.
+        results: Folders of results.
+        folders: Of more components, before all others but those beside a spec.
     """
 
     words: tuple[str, ...]
@@ -51,13 +53,21 @@ class Scope:
     folders: tuple[Path, ...] = ()
 
     def library(self) -> Library:
-        """The components that are meant by their names. Errors: Usage."""
+        """The components that are meant by their names.
+
+        Raises:
+            Usage: The request does not fit.
+        """
         from gaitsim.study.opening import open_library
 
         return open_library(None, self.folders)
 
     def version(self, reference: str) -> str:
-        """The present version of a component. Errors: Usage if there is none of this name."""
+        """The present version of a component.
+
+        Raises:
+            Usage: There is none of this name.
+        """
         library = self.library()
         found = library.version(reference)
         if found is None:
@@ -65,7 +75,11 @@ class Scope:
         return found
 
     def specs(self) -> list[Archived]:
-        """Every spec that is looked at. Errors: Usage."""
+        """Every spec that is looked at.
+
+        Raises:
+            Usage: The request does not fit.
+        """
         if self.words:
             return archived(self.words, self.folders)
         lab, here = lab_of(Path.cwd()), Path()
@@ -77,7 +91,11 @@ class Scope:
 
 
 def using_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[UsingSpec]:
-    """The specs that use a component or a table; of one that does not resolve, the listener hears. Errors: Usage."""
+    """The specs that use a component or a table; of one that does not resolve, the listener hears.
+
+    Raises:
+        Usage: The request does not fit.
+    """
     specs = scope.specs()
     hear = listener.progress("specs read")
     for count, spec in enumerate(specs, start=1):

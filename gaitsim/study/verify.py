@@ -26,7 +26,8 @@ _ENDED = ("killed", "timeout")  # what hung or killed a worker would do so again
 class Check:
     """One candidate run again: its name and what differs, if anything.
 
-    largest: relative difference of a number; inf if more than numbers differs, 0 if nothing does.
+    Attributes:
+        largest: Relative difference of a number; inf if more than numbers differs, 0 if nothing does.
     """
 
     name: str
@@ -37,7 +38,10 @@ class Check:
 def verified(bundle: Bundle, manifest: Mapping[str, Any], everything: bool) -> Iterator[Check]:
     """Run candidates of a result again: the best, the start and some between; or all of them.
 
-    Errors: BadResult, DamagedJournal, InvalidSpec.
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+        DamagedJournal: The journal is damaged.
+        InvalidSpec: The spec breaks a rule.
     """
     mode: Mode = "normal" if manifest["mode"] == "normal" else "rapid"
     if manifest["kind"] == "run":

@@ -23,7 +23,11 @@ class Workplace:
     scheduler_file: Path | None
 
     def check(self) -> None:
-        """Errors: Usage."""
+        """Check that the options fit together.
+
+        Raises:
+            Usage: The request does not fit.
+        """
         if not self.cluster and (self.scheduler is not None or self.scheduler_file is not None):
             raise Usage("--scheduler and --scheduler-file say where a cluster is; add --cluster.")
         if self.cluster and not (self.scheduler or self.scheduler_file):
@@ -45,7 +49,8 @@ class Workplace:
     def evaluator(self, task: Task, say: Callable[[str], None]) -> Evaluator:
         """What evaluates the candidates of a bundle.
 
-        Errors: ClusterError.
+        Raises:
+            ClusterError: The cluster fails or cannot be reached.
         """
         backend = next(backend for backend in BACKENDS if backend.asked(self))
         return backend.make(self, task, say)

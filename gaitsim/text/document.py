@@ -71,7 +71,8 @@ def read(path: Path, shown: str | None = None) -> MappingNode:
 def text_of(path: Path, name: str, what: str = "spec") -> str:
     """The text in a file of ours; `name` is how errors name it.
 
-    Errors: InvalidSpec if it is no readable text of a reasonable size.
+    Raises:
+        InvalidSpec: It is no readable text of a reasonable size.
     """
     try:
         status = path.stat()

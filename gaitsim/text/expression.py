@@ -42,7 +42,12 @@ class Expression:
     names: tuple[tuple[str, int], ...]
 
     def value(self, numbers: list[float]) -> float:
-        """The value for these numbers. Errors: ArithmeticError, ValueError."""
+        """The value for these numbers.
+
+        Raises:
+            ArithmeticError: The expression has no value.
+            ValueError: The expression has no value.
+        """
         scope: dict[str, Any] = {name: numbers[index] for name, index in self.names}
         value = eval(self.code, {"__builtins__": {}, **_FUNCTIONS, **_CONSTANTS}, scope)
         if isinstance(value, complex):
@@ -53,7 +58,8 @@ class Expression:
 def parse_expression(text: str, unit: str, scope: Mapping[str, tuple[int, str]]) -> Expression:
     """Check `text` (without the `=`) against the names of a mask: name -> (number, unit).
 
-    Errors: BadExpression.
+    Raises:
+        BadExpression: The expression is not valid.
     """
     tree = _parsed(text)
     units = {name: parse_unit(u).dimension.without_angle for name, (_, u) in scope.items()}

@@ -58,7 +58,11 @@ class BadQuantity(ValueError):
 
 
 def quantity_of(text: str | float, unit: str) -> Quantity:
-    """The quantity that a text says where `unit` is declared. Errors: BadQuantity."""
+    """The quantity that a text says where `unit` is declared.
+
+    Raises:
+        BadQuantity: The text is not a quantity of this unit.
+    """
     try:
         quantity = parse_quantity(text)
     except UnknownUnit as error:

@@ -17,7 +17,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Drawing:
-    """One figure. name: of its file, without ending. caption: what is seen, with its units, as one paragraph."""
+    """One figure.
+
+    Attributes:
+        name: Of its file, without ending.
+        caption: What is seen, with its units, as one paragraph.
+    """
 
     name: str
     title: str
@@ -30,7 +35,11 @@ Figures = Callable[["Replay"], list[Drawing]]
 
 
 def save(drawings: Iterable[Drawing], folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Write each drawing as files of the formats (png, svg, pdf); their paths. Errors: OSError."""
+    """Write each drawing as files of the formats (png, svg, pdf); their paths.
+
+    Raises:
+        OSError: The file cannot be read or written.
+    """
     folder.mkdir(parents=True, exist_ok=True)
     paths = []
     for drawing in drawings:

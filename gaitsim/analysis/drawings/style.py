@@ -22,7 +22,8 @@ _MEANT = {"N m": "moment", "J": "energy"}  # one dimension, two quantities
 def panels(rows: int = 1, columns: int = 1, height: float = 2.2, share: bool = False) -> tuple[Figure, list[Axes]]:
     """A figure as wide as a column and its panels, row by row; `height` of one in inches.
 
-    share: the panels of a column have one horizontal axis, named at the lowest. Needs no display.
+    Args:
+        share: The panels of a column have one horizontal axis, named at the lowest. Needs no display.
     """
     from cycler import cycler
     from matplotlib.figure import Figure

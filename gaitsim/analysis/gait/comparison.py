@@ -34,7 +34,8 @@ _MOMENT_OF = {
 class Followed:
     """A signal that a measure of the model compares with a recorded curve, on either side.
 
-    signal: address of the signal on one side. What the curve counts is direction (signal - zero), in SI.
+    Attributes:
+        signal: Address of the signal on one side. What the curve counts is direction (signal - zero), in SI.
     """
 
     norm: Norm
@@ -57,7 +58,11 @@ class Followed:
 
 @dataclass(frozen=True)
 class Matched:
-    """One quantity of both legs over the gait cycle, beside people's. cycles: by side."""
+    """One quantity of both legs over the gait cycle, beside people's.
+
+    Attributes:
+        cycles: By side.
+    """
 
     name: str
     norm: Norm

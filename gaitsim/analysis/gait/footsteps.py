@@ -19,7 +19,11 @@ _FLAT = "terrain/flat"
 
 @dataclass(frozen=True)
 class Step:
-    """From the touchdown of the other foot to that of this one. at: of the latter, in s; length in m."""
+    """From the touchdown of the other foot to that of this one.
+
+    Attributes:
+        at: Of the latter, in s; length in m.
+    """
 
     side: str
     at: float

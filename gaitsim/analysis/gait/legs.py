@@ -25,9 +25,13 @@ _SIDED = re.compile(r"(\w+)_([lr])(\..*)?")
 class Leg:
     """One leg during a run.
 
-    side: l or r. contacts: addresses. weight: of all that moves, in N. load, shear: force of the ground along
-    its normal and forwards along it, in body weights. standing: 1 in stance. touchdowns: in s, those that
-    begin or end a stride that counts.
+    Attributes:
+        side: L or r.
+        contacts: Addresses.
+        weight: Of all that moves, in N.
+        load, shear: Force of the ground along its normal and forwards along it, in body weights.
+        standing: 1 in stance.
+        touchdowns: In s, those that begin or end a stride that counts.
     """
 
     side: str

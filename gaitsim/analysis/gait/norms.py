@@ -60,7 +60,9 @@ class Comparison:
 def read_norm(column: str, library: Library, table: str = WALKING) -> Norm:
     """A column of a table of norms, with its `_sd` beside it if there is one.
 
-    Errors: InvalidSpec for a table that is not there, KeyError for a column.
+    Raises:
+        InvalidSpec: A table that is not there.
+        KeyError: A column.
     """
     found = library.table(table)
     mean = np.array(found.curve(column, POINTS))
@@ -72,7 +74,8 @@ def read_norm(column: str, library: Library, table: str = WALKING) -> Norm:
 def strides(times: Floats, values: Floats, touchdowns: Sequence[float]) -> Floats:
     """A signal from each touchdown to the next, at 101 points: strides x points.
 
-    touchdowns: times in s, in order; a stride that the signal does not cover is left out.
+    Args:
+        touchdowns: Times in s, in order; a stride that the signal does not cover is left out.
     """
     begun = [(begin, end) for begin, end in pairwise(touchdowns) if times[0] <= begin and end <= times[-1]]
     rows = [np.interp(np.linspace(begin, end, POINTS), times, values) for begin, end in begun]

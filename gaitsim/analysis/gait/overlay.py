@@ -32,7 +32,9 @@ Legs = Sequence[Leg]
 class Curve:
     """One quantity of one run over the gait cycle.
 
-    unit: In which it is drawn; none if the name says it. cycles: By side, in SI.
+    Attributes:
+        unit: In which it is drawn; none if the name says it.
+        cycles: By side, in SI.
     """
 
     name: str
@@ -103,7 +105,11 @@ def _activations(replay: Replay, legs: Legs) -> list[Curve]:
 
 @dataclass(frozen=True)
 class _Overlay:
-    """What one kind of figure shows. name: of its file."""
+    """What one kind of figure shows.
+
+    Attributes:
+        name: Of its file.
+    """
 
     name: str
     title: str

@@ -21,8 +21,9 @@ from gaitsim.analysis.replays.replay import Replay
 class Pressure:
     """Center of pressure of one foot in m, over its stances: 0 where the heel stood.
 
-    heel, front: the hindmost and the foremost contact of the foot. length: from one to the other, in m,
-    where the foot is flat.
+    Attributes:
+        heel, front: The hindmost and the foremost contact of the foot.
+        length: From one to the other, in m, where the foot is flat.
     """
 
     leg: Leg

@@ -27,7 +27,8 @@ _HIGHEST = 2.2  # times the highest apex above touchdown
 class Hops:
     """What a measure of hopping watches: heights in m above its reference, and 1 in the air.
 
-    coordinate: the joint coordinate that is the height, if it is one that `initial:` sets.
+    Attributes:
+        coordinate: The joint coordinate that is the height, if it is one that `initial:` sets.
     """
 
     measure: str

@@ -18,7 +18,11 @@ if TYPE_CHECKING:
 
 
 def draw(graphs: Sequence[Graph], file: Path, title: str) -> None:
-    """Write a PNG with every graph, two panels a row; angles in degrees. Errors: OSError."""
+    """Write a PNG with every graph, two panels a row; angles in degrees.
+
+    Raises:
+        OSError: The file cannot be read or written.
+    """
     columns = min(2, len(graphs))
     rows = -(-len(graphs) // columns)
     figure, axes = panels(rows, columns, height=2.9)

@@ -27,8 +27,10 @@ CREATED = "created at paths"
 class Balance:
     """Energies in J over time.
 
-    stored: what is held, by name. exchanged: what came in since the first instant, by name; losses
-    are negative. They explain the change of the total, up to the residual.
+    Attributes:
+        stored: What is held, by name.
+        exchanged: What came in since the first instant, by name; losses are negative. They explain the change of the
+            total, up to the residual.
     """
 
     stored: Mapping[str, Floats]

@@ -53,7 +53,11 @@ def _fits(replay: Replay, table: dict[str, Any]) -> bool:
 
 
 def _table(replay: Replay) -> dict[str, Any]:
-    """The table of a model; empty if there is none. Errors: InvalidSpec if it cannot be read."""
+    """The table of a model; empty if there is none.
+
+    Raises:
+        InvalidSpec: It cannot be read.
+    """
     folders = [replay.path.parent / "reference", Path("specs/reference"), shipped_folder().parent / "specs/reference"]
     path = next((f / f"{replay.name}.yaml" for f in folders if (f / f"{replay.name}.yaml").is_file()), None)
     if path is None:

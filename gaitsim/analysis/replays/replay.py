@@ -22,8 +22,12 @@ if TYPE_CHECKING:
 class Replay:
     """One recorded run.
 
-    label: how legends call it. path: the spec, or the result folder. model: started at the values
-    that were run. manifest: of the result; empty for a spec. notices: what its reader should know.
+    Attributes:
+        label: How legends call it.
+        path: The spec, or the result folder.
+        model: Started at the values that were run.
+        manifest: Of the result; empty for a spec.
+        notices: What its reader should know.
     """
 
     label: str
@@ -89,7 +93,8 @@ class Replay:
     def every(self, interval: float) -> Replay:
         """The same run, of which one instant in `interval` seconds is looked at, the first included.
 
-        Errors: Usage unless that is a whole number of steps.
+        Raises:
+            Usage: Unless that is a whole number of steps.
         """
         return replace(self, outcome=self.outcome.every(interval))
 
@@ -106,9 +111,14 @@ def replayed(
 ) -> Replay:
     """Run a model once more, from its starts, and keep every signal; `duration` in seconds.
 
-    prepared: sees the simulator before it runs.
+    A run that fails is a Replay up to its failure.
 
-    Errors: InvalidSpec, InvalidComponent. A run that fails is a Replay up to its failure.
+    Args:
+        prepared: Sees the simulator before it runs.
+
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
     """
     if duration is not None:
         model = replace(model, simulate=replace(model.simulate, duration=duration))

@@ -58,8 +58,11 @@ def write(
 ) -> Path:
     """Write the report of one run, or of several beside each other; its path.
 
-    remarks: what the reader should know, such as what could not be made.
-    Errors: OSError.
+    Args:
+        remarks: What the reader should know, such as what could not be made.
+
+    Raises:
+        OSError: The file cannot be read or written.
     """
     page = _template().render(
         title=" and ".join(dict.fromkeys(replay.name for replay in replays)),

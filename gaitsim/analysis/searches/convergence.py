@@ -99,7 +99,11 @@ def tuned_in(folder: Path, manifest: Mapping[str, Any]) -> list[Tuned]:
 
 
 def convergence_figures(replay: Replay) -> list[Drawing]:
-    """The scores of a search; none for what is no search. Errors: DamagedJournal."""
+    """The scores of a search; none for what is no search.
+
+    Raises:
+        DamagedJournal: The journal is damaged.
+    """
     if replay.folder is None or replay.manifest.get("kind") != "optimize":
         return []
     evaluations = evaluations_in(replay.folder)

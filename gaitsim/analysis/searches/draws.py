@@ -26,7 +26,11 @@ _HEIGHT = 1.15  # inches
 
 @dataclass(frozen=True)
 class Summary:
-    """One metric over draws, in its declared unit; count: of the draws that have it."""
+    """One metric over draws, in its declared unit;
+
+    Attributes:
+        count: Of the draws that have it.
+    """
 
     name: str
     mean: float
@@ -71,7 +75,11 @@ def summaries(rows: Sequence[Mapping[str, float]]) -> list[Summary]:
 
 
 def drawn_in(folder: Path, manifest: Mapping[str, Any]) -> Drawn | None:
-    """The draws of a result; None if it holds something else. Errors: BadResult."""
+    """The draws of a result; None if it holds something else.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+    """
     asked = manifest.get("draws")
     if not asked:
         return None
@@ -82,7 +90,11 @@ def drawn_in(folder: Path, manifest: Mapping[str, Any]) -> Drawn | None:
 
 
 def draws_of(replay: Replay) -> Drawn | None:
-    """The draws that a replay is one of; None if something else. Errors: BadResult."""
+    """The draws that a replay is one of; None if something else.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+    """
     return None if replay.folder is None else drawn_in(replay.folder, replay.manifest)
 
 

@@ -43,7 +43,11 @@ class Study:
 
 
 def study_in(folder: Path) -> Study | None:
-    """The study that a result of runs holds; None if it is one run only. Errors: BadResult."""
+    """The study that a result of runs holds; None if it is one run only.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+    """
     rows = read_rows(folder)
     if len(rows) < 2:
         return None
@@ -53,7 +57,11 @@ def study_in(folder: Path) -> Study | None:
 
 
 def study_of(replay: Replay) -> Study | None:
-    """The study that a replay is a run of; None if something else. Errors: BadResult."""
+    """The study that a replay is a run of; None if something else.
+
+    Raises:
+        BadResult: The folder is not a result, or the result is damaged.
+    """
     if replay.folder is None or replay.manifest.get("kind") != "run":
         return None
     study = study_in(replay.folder)

@@ -28,9 +28,12 @@ def is_pattern(text: str) -> bool:
 def matching(model: Model, text: str, arriving: bool = False) -> list[Signal]:
     """The signals of an address or a pattern, in the order of the model; `*` also goes over dots.
 
-    arriving: also inputs, which are not recorded but follow from what is; a pattern means them only
-    if it names them, as 'leg_*.soleus.excitation' does.
-    Errors: NoSuchSignal, which offers what is nearest.
+    Args:
+        arriving: Also inputs, which are not recorded but follow from what is; a pattern means them only if it names
+            them, as 'leg_*.soleus.excitation' does.
+
+    Raises:
+        NoSuchSignal: Which offers what is nearest.
     """
     signals = recorded_signals(model)
     if arriving and not is_pattern(text.rpartition(".")[2]):

@@ -48,7 +48,9 @@ def against_time(replays: Sequence[Replay], text: str) -> list[Drawing]:
     """The signals of an address or pattern over time; several figures if they are many.
 
     One run: signals of one unit share a panel. Several: a panel for each signal, a line for each run.
-    Errors: NoSuchSignal if no run has such a signal.
+
+    Raises:
+        NoSuchSignal: No run has such a signal.
     """
     return _over_time(replays, chosen(replays, text), text, f"{text} against time", text)
 
@@ -109,7 +111,8 @@ def _pages(
 def against_signal(replays: Sequence[Replay], text: str, other: str) -> list[Drawing]:
     """The signals of an address or pattern over another signal, in the order of time.
 
-    Errors: NoSuchSignal.
+    Raises:
+        NoSuchSignal: No run has such a signal.
     """
     (horizontal,) = _single(replays, other)
     signals = [signal for signal in chosen(replays, text) if signal.address != horizontal.address]
@@ -136,8 +139,12 @@ def against_signal(replays: Sequence[Replay], text: str, other: str) -> list[Dra
 def return_map(replays: Sequence[Replay], text: str) -> Drawing:
     """Each local maximum of a signal over the one before, with the diagonal and the fixed point.
 
-    text: a signal, or a measure, which stands for the signal that it watches.
-    Errors: NoSuchSignal, TooFewEvents.
+    Args:
+        text: A signal, or a measure, which stands for the signal that it watches.
+
+    Raises:
+        NoSuchSignal: No run has such a signal.
+        TooFewEvents: A run has too few events.
     """
     (signal,) = _single(replays, _watched(replays, text))
     runs = [(r, m) for r in replays if _has(r, signal) for m in [_maxima(r, signal)]]
@@ -230,7 +237,11 @@ def _square(axes: Axes, events: Floats) -> None:
 
 
 def chosen(replays: Sequence[Replay], text: str) -> list[Signal]:
-    """The signals that a text names in any of the runs. Errors: NoSuchSignal if none has one."""
+    """The signals that a text names in any of the runs.
+
+    Raises:
+        NoSuchSignal: None has one.
+    """
     found: dict[str, Signal] = {}
     error: NoSuchSignal | None = None
     for replay in replays:
@@ -255,7 +266,11 @@ def lacking(replays: Sequence[Replay], text: str) -> list[str]:
 
 
 def _single(replays: Sequence[Replay], text: str) -> list[Signal]:
-    """Errors: NoSuchSignal unless a text names one signal."""
+    """Find the one signal that a text names.
+
+    Raises:
+        NoSuchSignal: Unless a text names one signal.
+    """
     found = chosen(replays, text)
     if len(found) > 1:
         raise NoSuchSignal(f"{text}: this must be one signal, and it matches {len(found)}; write one address.")

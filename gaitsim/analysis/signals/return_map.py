@@ -17,7 +17,8 @@ _CLEAR = 5e-5  # of the events' size: a maximum is known to a time step only
 class FixedPoint:
     """A value that returns to itself, and the slope of the map there: below 1 in size, it is stable.
 
-    slope: None if the events are too close to the value, from the first on, to tell.
+    Attributes:
+        slope: None if the events are too close to the value, from the first on, to tell.
     """
 
     value: float
@@ -27,8 +28,9 @@ class FixedPoint:
 def maxima(values: Floats, prominence: float = PROMINENCE) -> NDArray[np.int64]:
     """The places of the local maxima that rise above what is before and behind them.
 
-    prominence: how far, as a fraction of the signal's range. The first and the last instant are
-    no maxima, as their other side is not known.
+    Args:
+        prominence: How far, as a fraction of the signal's range. The first and the last instant are no maxima, as their
+            other side is not known.
     """
     if values.size < 3 or not np.isfinite(values).all():
         return np.zeros(0, dtype=np.int64)
@@ -87,7 +89,11 @@ def fixed_point(events: Floats) -> FixedPoint | None:
 
 
 def fixed_between(x: Floats, above: Floats, i: int) -> FixedPoint:
-    """Where the line through points i and i + 1 of a map meets the diagonal; above: their heights over it."""
+    """Where the line through points i and i + 1 of a map meets the diagonal;
+
+    Args:
+        above: Their heights over it.
+    """
     rise = float((above[i + 1] - above[i]) / (x[i + 1] - x[i]))
     return FixedPoint(float(x[i] - above[i] / rise), 1 + rise)
 

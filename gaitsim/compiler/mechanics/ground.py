@@ -17,7 +17,8 @@ _THICK = 1.0  # m
 def add_surface(spec: Any, name: str, angle: float, across: float, info: str) -> None:
     """A site whose x axis runs along ground that rises forwards by an angle, and whose z axis is its normal.
 
-    across: by how much the ground rises to the left, about that x axis.
+    Args:
+        across: By how much the ground rises to the left, about that x axis.
     """
     spec.worldbody.add_site(name=name, quat=_tilt(angle, across), size=[0.005] * 3, info=info)
 
@@ -25,7 +26,8 @@ def add_surface(spec: Any, name: str, angle: float, across: float, info: str) ->
 def add_ground(spec: Any, angle: float, across: float, edges: Sequence[tuple[float, float]], info: str) -> None:
     """Geoms that `Mechanics.collide` keeps spheres out of; a second part may ask for the same ground.
 
-    Errors: ValueError if the ground is another already.
+    Raises:
+        ValueError: The ground is another already.
     """
     # At an edge without a height a sphere would touch two boxes, and so be held twice.
     level = all(height == 0 for _, height in edges)

@@ -60,7 +60,8 @@ class DrawnLine:
 class DrawnForce:
     """An arrow to look at: the force on a place, given by outputs in N, forwards, upwards and to the left.
 
-    surface: the site whose axes these are; empty for those of the world.
+    Attributes:
+        surface: The site whose axes these are; empty for those of the world.
     """
 
     place: Point

@@ -17,7 +17,8 @@ _STRAIGHT = 1e-6  # of an axis of length 1, out of the plane or out of the way a
 def check_friction(model: Model, spec: Any, made: Made) -> None:
     """Whether the contacts of bodies that can move sideways have friction there.
 
-    Errors: InvalidSpec for each that pushes forwards along the ground and never sideways.
+    Raises:
+        InvalidSpec: Each that pushes forwards along the ground and never sideways.
     """
     faults = Faults()
     for index, body in made.carried.items():
@@ -35,7 +36,8 @@ def check_friction(model: Model, spec: Any, made: Made) -> None:
 def check_slopes(model: Model, made: Made) -> None:
     """Whether spheres of MuJoCo are on ground that rises straight ahead, along which alone their forces are told.
 
-    Errors: InvalidSpec for each that is not.
+    Raises:
+        InvalidSpec: Each that is not.
     """
     faults = Faults()
     for part in (model.parts[index] for index in made.collided if made.across):
@@ -47,7 +49,8 @@ def check_slopes(model: Model, made: Made) -> None:
 def check_sides(model: Model, values: Sequence[float]) -> None:
     """Whether what lies on a mirrored segment, beside its middle, is mirrored as well.
 
-    Errors: InvalidSpec for each part that is not.
+    Raises:
+        InvalidSpec: Each part that is not.
     """
     faults = Faults()
     mirrored = {part.address for part in model.parts if part.mirrored and part.type.frames}

@@ -28,7 +28,8 @@ _FIELDS = {
 class Tie:
     """A port tied to one number of MuJoCo's data, such as qpos of a joint.
 
-    when: of what is written at events only, the port that is 1 at those that set it.
+    Attributes:
+        when: Of what is written at events only, the port that is 1 at those that set it.
     """
 
     port: str
@@ -40,7 +41,11 @@ class Tie:
 
 
 def tied(port: str, element: Element, field_name: str, index: int, sign: float = 1.0) -> Tie:
-    """A port tied to a number that such an element has. Errors: ValueError."""
+    """A port tied to a number that such an element has.
+
+    Raises:
+        ValueError: The expression has no value.
+    """
     known = _FIELDS.get(element.kind, ())
     if field_name not in known:
         raise ValueError(f"{with_article(element.kind)} has no {field_name}. {did_you_mean(field_name, known)}")

@@ -26,7 +26,8 @@ class Branch:
 def branches(model: Model, values: Sequence[float]) -> list[Branch]:
     """All segments in an order in which each comes after the one that carries it.
 
-    Errors: InvalidSpec for a segment without a joint, with joints at different places, or in a ring.
+    Raises:
+        InvalidSpec: A segment without a joint, with joints at different places, or in a ring.
     """
     faults = Faults()
     segments = {part.address: part for part in model.parts if part.type.frames}
@@ -76,7 +77,8 @@ def _ordered(segments: dict[str, Part], carried: dict[str, list[Part]]) -> list[
 def check_axes(branch: Branch, body: Any) -> None:
     """Whether the hinges of a body turn it in as many ways as there are hinges, and its slides likewise.
 
-    Errors: InvalidSpec at the first joint that adds no way of its own.
+    Raises:
+        InvalidSpec: At the first joint that adds no way of its own.
     """
     parts = {joint.address: joint for joint in branch.joints}
     for kind, does in ((mujoco.mjtJoint.mjJNT_HINGE, "turn"), (mujoco.mjtJoint.mjJNT_SLIDE, "move")):

@@ -471,8 +471,9 @@ def _namespace(search: _Search) -> dict[str, Any]:
 def _mark_statements(tree: ast.Module, others: Sequence[ast.Module]) -> Mapping[int, int]:
     """Put a call before each statement of a function, and give the lines of those in the component by number.
 
-    others: The trees of shared files; which lines of theirs are reached depends on the component.
-    What only build() uses is left out: it works in MuJoCo, not on numbers.
+    Args:
+        others: The trees of shared files; which lines of theirs are reached depends on the component. What only build()
+            uses is left out: it works in MuJoCo, not on numbers.
     """
     own = class_functions(tree)
     theirs = {node.name: node for other in others for node in other.body if isinstance(node, ast.FunctionDef)}

@@ -79,7 +79,8 @@ def class_functions(tree: ast.Module) -> dict[str, ast.FunctionDef]:
 def parse(text: str, file: str) -> ast.Module:
     """The syntax tree of a component file that holds only what such a file may hold.
 
-    Errors: InvalidComponent.
+    Raises:
+        InvalidComponent: A component file breaks the contract.
     """
     lines, faults = text.split("\n"), Faults()
     tree = _python(text, file)
@@ -111,7 +112,8 @@ def parse(text: str, file: str) -> ast.Module:
 def parse_shared(text: str, file: str) -> ast.Module:
     """The syntax tree of a file that components of a kind import from.
 
-    Errors: InvalidComponent.
+    Raises:
+        InvalidComponent: A component file breaks the contract.
     """
     lines, faults = text.split("\n"), Faults()
     tree = _python(text, file)
@@ -131,7 +133,11 @@ def parse_shared(text: str, file: str) -> ast.Module:
 
 
 def _python(text: str, file: str) -> ast.Module:
-    """The syntax tree of a text. Errors: InvalidComponent."""
+    """The syntax tree of a text.
+
+    Raises:
+        InvalidComponent: A component file breaks the contract.
+    """
     lines = text.split("\n")
     try:
         return ast.parse(text, file)
@@ -152,7 +158,8 @@ def check_names(
 ) -> list[Fault]:
     """All mistakes of a parsed file in names, signatures, assignments and declarations.
 
-    shared: The syntax trees of the files that it imports from.
+    Args:
+        shared: The syntax trees of the files that it imports from.
     """
     check = _Check(tree, declarations, file, lines, used_functions(tree, shared))
     check.declared()

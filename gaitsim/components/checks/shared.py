@@ -82,8 +82,9 @@ def used_functions(tree: ast.Module, trees: Sequence[ast.Module]) -> dict[str, a
 def builtins_with(spaces: Mapping[str, Mapping[str, Any]], known: Mapping[str, Any] | None = None) -> dict[str, Any]:
     """The builtins of a component file in which `from ._name import ...` gives names of executed shared files.
 
-    spaces: The namespaces of the shared files by name.
-    known: The other builtins; Python's by default.
+    Args:
+        spaces: The namespaces of the shared files by name.
+        known: The other builtins; Python's by default.
     """
     own = vars(builtins) if known is None else known
     usual = own["__import__"]

@@ -19,7 +19,12 @@ def units_of(known: Mapping[str, Declaration]) -> Units:
 
 
 def end_in_si(end: End, unit: str, parameters: Units, values: Mapping[str, float]) -> float:
-    """One end of a range in SI; `values` are those of parameters in SI. Errors: ArithmeticError, ValueError."""
+    """One end of a range in SI; `values` are those of parameters in SI.
+
+    Raises:
+        ArithmeticError: The expression has no value.
+        ValueError: The expression has no value.
+    """
     if not isinstance(end, str):
         return scaled(end, parse_unit(unit).factor)
     return _expression(end, unit, parameters).value([values.get(name, 0.0) for name, _ in parameters])
@@ -44,5 +49,9 @@ def range_faults(name: str, one: Ranged, known: Mapping[str, Declaration]) -> It
 
 @cache
 def _expression(end: str, unit: str, parameters: Units) -> Expression:
-    """Errors: BadExpression."""
+    """Parse one end of a range that is an expression of parameters.
+
+    Raises:
+        BadExpression: The expression is not valid.
+    """
     return parse_expression(end, unit, {name: (index, own) for index, (name, own) in enumerate(parameters)})
