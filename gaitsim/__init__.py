@@ -24,7 +24,14 @@ _HOMES = dict.fromkeys(("analyze", "check", "cycle", "limit", "optimize", "run")
 
 
 def __getattr__(name: str) -> Any:
-    """Imported when it is asked for: the command line does not wait for it."""
+    """Import a function when it is first used, so that the command line starts without it.
+
+    Args:
+        name: The attribute that is asked for.
+
+    Raises:
+        AttributeError: gaitsim has no such attribute.
+    """
     if name in _HOMES:
         return getattr(import_module(_HOMES[name]), name)
     raise AttributeError(f"module 'gaitsim' has no attribute {name!r}")

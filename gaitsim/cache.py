@@ -1,7 +1,7 @@
-"""Bytes that can be made again, kept in the user's cache folder: each entry is whole and sound, or absent.
+"""A cache of computed bytes in the user's cache folder. An entry is complete and undamaged, or absent.
 
-An entry is one file: the digest of its bytes, then the bytes. A cache that cannot be read or written
-ends nothing: what would be in it is made again, and one line says so, once in a process.
+An entry is one file: the SHA-256 digest of its data, then the data. A cache that cannot be read or written stops
+nothing: the data is computed again, and one warning per process says so.
 """
 
 from __future__ import annotations
@@ -21,7 +21,15 @@ _REMEDY = "so nothing is kept and each run compiles anew; set GAITSIM_CACHE to a
 
 
 def kept(kind: str, key: str) -> bytes | None:
-    """The bytes of an entry; None if there is none, or none that is sound."""
+    """Read an entry of the cache.
+
+    Args:
+        kind: The folder of the entry, such as "audited".
+        key: The name of the entry.
+
+    Returns:
+        The data; None if the entry is absent or damaged.
+    """
     path = _path(kind, key)
     if path is None:
         return None
@@ -40,7 +48,13 @@ def kept(kind: str, key: str) -> bytes | None:
 
 
 def keep(kind: str, key: str, data: bytes) -> None:
-    """Write an entry as a whole, over one that is there."""
+    """Write an entry of the cache completely, and replace an older one.
+
+    Args:
+        kind: The folder of the entry.
+        key: The name of the entry.
+        data: What to store.
+    """
     path = _path(kind, key)
     if path is None:
         tell_once(f"there is no absolute path to a cache folder, {_REMEDY}.")
@@ -55,7 +69,11 @@ def keep(kind: str, key: str, data: bytes) -> None:
 
 
 def tell_once(message: str) -> None:
-    """Say on stderr what the cache cannot do; after the first time in a process, nothing."""
+    """Log one warning about the cache; later calls in the same process do nothing.
+
+    Args:
+        message: What the cache cannot do.
+    """
     if not _told():
         _told().append(message)
         logging.getLogger("gaitsim").warning("gaitsim: %s", message)
@@ -63,7 +81,7 @@ def tell_once(message: str) -> None:
 
 @cache
 def _told() -> list[str]:
-    """What this process has said of its cache."""
+    """The warnings that this process has logged."""
     return []
 
 

@@ -1,17 +1,17 @@
 """The contract of a component file: declarations and small pure functions.
 
 A component file holds one subclass of `Component`. Its class body declares parameters,
-ports, states and parts; its static functions say what happens:
+ports, states and parts. Its static functions compute:
 
-    start(p, u, x)           states once the whole model is posed
-    output(p, u, x, y)       outputs of this instant
-    update(p, u, x, y, dt)   states of the next instant; all inputs are of this instant
-    reset(p, u, x, y, t)     states after an event: the instant t at which the output `guard` rose through 0
-    finish(p, x, m)          metrics after the run (measures)
+    start(p, u, x)           the states at the start, once the whole model is posed
+    output(p, u, x, y)       the outputs of this instant
+    update(p, u, x, y, dt)   the states of the next instant; all inputs are of this instant
+    reset(p, u, x, y, t)     the states after an event: the instant t at which the output `guard` rose through 0
+    finish(p, x, m)          the metrics after the run (measures)
     build(p, mj)             bodies, joints, tendons ... in MuJoCo (physical parts)
 
-p, u, x, y and m carry the declared parameters, inputs, states, outputs and metrics as
-attributes: plain numbers in SI. Angles are in radians.
+p, u, x, y and m have the declared parameters, inputs, states, outputs and metrics as
+attributes. These are plain numbers in SI; angles are in radians.
 """
 
 from __future__ import annotations
@@ -40,12 +40,20 @@ __all__ = [
 ]
 
 
-End = float | str  # of a range: a number in the unit, or an expression of parameters in SI
+End = float | str  # one end of a range: a number in the declared unit, or an expression of parameters in SI
 
 
 @dataclass(frozen=True)
 class Parameter:
-    """A number that a spec may set and tune. Bounds are in `unit`; without default it is required."""
+    """A number that a spec can set and tune.
+
+    Attributes:
+        unit: The unit of default and bounds, and of values in a spec.
+        doc: What it is.
+        default: Its value if the spec sets none; without a default, a spec must set it.
+        bounds: The range in which it makes sense.
+        source: A key of the library's `references.bib`, or "definition: why".
+    """
 
     unit: str
     doc: str
@@ -56,7 +64,7 @@ class Parameter:
 
 @dataclass(frozen=True)
 class Points:
-    """A list of places on segments: `[{on: shank, at: [-4 cm, 0 m, 30 %]}, ...]`, each number tunable."""
+    """A list of points on segments, such as `[{on: shank, at: [-4 cm, 0 m, 30 %]}, ...]`. Every number can be tuned."""
 
     doc: str
     unit: str = "m"
@@ -64,10 +72,10 @@ class Points:
 
 @dataclass(frozen=True)
 class Series:
-    """A recorded curve: `size` numbers at equal distances from 0 to 100 % of a cycle, which no search changes.
+    """A recorded curve: `size` numbers at equal distances from 0 to 100 % of a cycle. It cannot be tuned.
 
-    A spec names a column of a table beside the components, or writes a list; either is
-    brought to this size: `norms/fukuchi2018_walking.knee_flexion`, `[0 deg, 60 deg, 0 deg]`.
+    A spec names a column of a table, such as `norms/fukuchi2018_walking.knee_flexion`, or writes a list, such as `[0
+    deg, 60 deg, 0 deg]`. Both are interpolated to this size.
     """
 
     unit: str
@@ -77,7 +85,7 @@ class Series:
 
 @dataclass(frozen=True)
 class Option:
-    """One word of a few. It shapes the part when the model is built and cannot be tuned."""
+    """One word from a list of choices. It acts when the model is built, and cannot be tuned."""
 
     doc: str
     choices: tuple[str, ...]
@@ -86,25 +94,28 @@ class Option:
 
 @dataclass(frozen=True)
 class Attachment:
-    """A frame of another part that this one is fastened to, such as `parent: thigh.distal`."""
+    """A frame of another part, to which this part is fastened, such as `parent: thigh.distal`."""
 
     doc: str
 
 
 @dataclass(frozen=True)
 class Frame:
-    """A place on this part that others fasten to. A part with frames is a body of its own."""
+    """A place on this part to which others can be fastened. A part with frames is a body of its own."""
 
     doc: str
 
 
 @dataclass(frozen=True)
 class Input:
-    """A signal that comes in. `sums`: any number of senders (`to:`); else one (`from:`).
+    """A signal that the part receives.
 
     Attributes:
-        usual, possible: As of an output.
-        like: The series, if there is one, whose unit must fit that of a signal that an input of the unit `*` takes.
+        unit: The unit of the signal; `*` accepts every unit.
+        sums: Whether any number of senders may be connected (`to:`), which are added; else there is one (`from:`).
+        usual: The usual range at the start, as for an output.
+        possible: The possible range at the start, as for an output.
+        like: For the unit `*`, the series whose unit the signal must fit.
     """
 
     unit: str
@@ -118,12 +129,13 @@ class Input:
 
 @dataclass(frozen=True)
 class Output:
-    """A signal that goes out.
+    """A signal that the part sends.
 
     Attributes:
-        usual: Where it is when a run starts, as a rule; a start elsewhere is warned of.
-        possible: Where it can be at all; a start elsewhere is refused. Both are a low and a high end: numbers in
-            `unit`, or expressions of parameters in SI, such as "upper + 0.1" of an angle.
+        usual: The usual range at the start of a run. A start outside it is reported.
+        possible: The possible range at the start of a run. A start outside it is an error.
+
+    Both ranges have a low and a high end: numbers in `unit`, or expressions of parameters in SI, such as "upper + 0.1".
     """
 
     unit: str
@@ -134,10 +146,11 @@ class Output:
 
 @dataclass(frozen=True)
 class State:
-    """What is remembered between steps: a number, `size` numbers, or one of named `levels`.
+    """What a part remembers from step to step: one number, `size` numbers, or one of the named `levels`.
 
     Attributes:
-        usual, possible: Of one number, as of an output.
+        usual: The usual range at the start, for a state of one number.
+        possible: The possible range at the start, for a state of one number.
     """
 
     unit: str = "1"
@@ -150,12 +163,12 @@ class State:
 
 @dataclass(frozen=True)
 class Metric:
-    """A number that a measure reports after the run. One named `value` bears the measure's own name.
+    """A number that a measure computes after the run. The metric `value` has the name of the measure itself.
 
     Attributes:
-        unit: `*` for that of the signal that is measured.
-        like: The series whose unit it has instead, if it is one of the same quantity: then both are in deg, although a
-            joint's angle is in rad.
+        unit: The unit; `*` is that of the measured signal.
+        like: For the unit `*`, a series whose unit is used instead if it measures the same quantity. Both are then in
+            deg, although the angle of a joint is in rad.
     """
 
     unit: str
@@ -165,14 +178,14 @@ class Metric:
 
 @dataclass(frozen=True)
 class Part:
-    """A part inside this one, such as a muscle's path; a spec swaps it with `use:`.
+    """An inner part, such as the path of a muscle. A spec replaces it with `use:`.
 
     Attributes:
-        reads: This part's input <- the inner part's output.
-        sends: The inner part's input <- this part's input or output.
-        gives: The inner part's parameter, if it has it and a spec does not set it <- an expression of this part's
-            parameters.
-        optional: It is there only if a spec says so.
+        reads: Pairs of an input of this part and the output of the inner part that it reads.
+        sends: Pairs of an input of the inner part and the input or output of this part that it receives.
+        gives: Pairs of a parameter of the inner part and an expression of parameters of this part, which sets it unless
+            a spec does.
+        optional: Whether the part exists only if a spec names one.
     """
 
     kind: str
@@ -186,11 +199,11 @@ class Part:
 
 @dataclass(frozen=True)
 class Link:
-    """Connections with another part that a spec makes by its name alone, such as `joint: ankle`.
+    """Connections with another part that a spec makes by one name, such as `joint: ankle`.
 
     Attributes:
-        reads: This part's input <- the other part's output.
-        sends: The other part's input <- this part's output.
+        reads: Pairs of an input of this part and the output of the other part that it reads.
+        sends: Pairs of an input of the other part and the output of this part that it receives.
     """
 
     doc: str
@@ -200,9 +213,12 @@ class Link:
 
 @dataclass(frozen=True)
 class StepLimit:
-    """The largest time step at which the component is right, found by measurement; `doc` says by which measure.
+    """The largest time step at which the component is accurate, found by measurement.
 
-    `gaitsim check`, `run` and `optimize` say so of a spec whose step is longer.
+    `gaitsim check`, `run` and `optimize` warn of a longer step.
+
+    Attributes:
+        doc: What was measured, and with which error.
     """
 
     unit: str
@@ -212,17 +228,18 @@ class StepLimit:
 
 @dataclass(frozen=True)
 class Curve:
-    """A graph of the component alone, which `gaitsim library show --plot` draws.
+    """A graph of the component alone, drawn by `gaitsim library show --plot`.
 
     Attributes:
         of: An output, or a function of this file.
         over: An input, a state, an output that MuJoCo sets, an argument of the function, or "time".
         span: The range of `over`, in its unit.
-        at: Values of what else is read, by name, in their units; a word is the name of a parameter.
-        each: A name and its values, one line for each.
+        at: Values of all else that is read, by name and in their units; a word is the name of a parameter.
+        each: A name and its values; each value is one line of the graph.
         steps: Inputs over time: the values that each takes one after the other, for equal times.
-        unit, over_unit: Of what a function gives and of its argument.
-        inverse: The axes are exchanged.
+        unit: The unit of the result of a function.
+        over_unit: The unit of its argument.
+        inverse: Whether the axes are exchanged.
     """
 
     of: str
@@ -256,11 +273,13 @@ Declaration = (
 
 
 class Refused(ValueError):
-    """Raised by a `build` whose numbers make no such part; the words go to the part's place in the spec."""
+    """Raised by a `build` that cannot make a part from its numbers. The text is reported at the place of the part in
+    the spec.
+    """
 
 
 class Component:
-    """The base of every component. What a subclass declares is read from its class body."""
+    """The base class of components. Declarations are read from the body of the subclass."""
 
     declarations: ClassVar[dict[str, Declaration]] = {}
 

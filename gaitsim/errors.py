@@ -1,4 +1,4 @@
-"""What goes wrong, said so that it can be mended: place, value, rule, next move."""
+"""Errors for users. Each names a place, a value, a rule and the next step."""
 
 from __future__ import annotations
 
@@ -11,7 +11,14 @@ from enum import IntEnum
 
 
 def command(*words: object) -> str:
-    """A command of gaitsim as it can be pasted into a shell."""
+    """A gaitsim command that can be pasted into a shell.
+
+    Args:
+        words: The words after `gaitsim`.
+
+    Returns:
+        The command, with quotes where the shell needs them.
+    """
     return shlex.join(["gaitsim", *map(str, words)])
 
 
@@ -21,7 +28,7 @@ _LONG = re.compile(r"\S{201,}")
 
 
 def shortened(text: str) -> str:
-    """A text as a message can repeat it: without what is in the middle of a long one."""
+    """A text at a length that a message can repeat: the middle of a long text is left out."""
     if len(text) <= _LONGEST:
         return text
     half = _LONGEST // 2
@@ -29,7 +36,7 @@ def shortened(text: str) -> str:
 
 
 class ExitCode(IntEnum):
-    """The kind of a failure, as the shell sees it."""
+    """The exit code of the command line, one for each kind of failure."""
 
     OK = 0
     BUG = 1
@@ -42,7 +49,14 @@ class ExitCode(IntEnum):
 
 @dataclass(frozen=True)
 class Mark:
-    """A place in a text: file, line and column (from 1), and the line itself."""
+    """A place in a text.
+
+    Attributes:
+        file: The name of the file as messages show it.
+        line: The line, from 1; 0 if unknown.
+        column: The column, from 1.
+        text: The text of the line.
+    """
 
     file: str
     line: int = 0
@@ -54,7 +68,7 @@ class Mark:
 
     @property
     def frame(self) -> str:
-        """The line with a caret under the column; empty if the place has no text."""
+        """The line with a caret below the column; empty if the text of the line is unknown."""
         if not self.text or len(self.text) > _LONGEST_LINE:
             return ""
         number = f"{self.line:>5}"
@@ -64,7 +78,7 @@ class Mark:
 
 @dataclass(frozen=True)
 class Fault:
-    """One mistake: where it stands, what it belongs to, and what to do about it."""
+    """One mistake: its place, the address that it belongs to, and what to do about it."""
 
     message: str
     mark: Mark | None = None
@@ -81,7 +95,7 @@ class Fault:
 
 
 class GaitsimError(Exception):
-    """A mistake of the user or of the world around; never a bug of gaitsim."""
+    """An error that the user or the environment causes; never a bug of gaitsim."""
 
     exit_code = ExitCode.INVALID
 
@@ -93,33 +107,33 @@ class GaitsimError(Exception):
 
 
 class InvalidSpec(GaitsimError):
-    """The text of a spec, or what it asks for, breaks a rule."""
+    """The spec breaks a rule."""
 
 
 class InvalidComponent(GaitsimError):
-    """A component file breaks the contract."""
+    """A component file breaks the contract of components."""
 
 
 class SimulationFailed(GaitsimError):
-    """A candidate diverged, or one of its components raised."""
+    """A simulation diverged, or one of its components raised an exception."""
 
     exit_code = ExitCode.FAILED
 
 
 class Usage(GaitsimError):
-    """The command line does not fit."""
+    """The options of a command do not fit together, or do not fit what they name."""
 
     exit_code = ExitCode.USAGE
 
 
 class Faults:
-    """A collector: a stage reports all its mistakes at once."""
+    """Collects faults, so that one error reports all mistakes of a stage."""
 
     def __init__(self) -> None:
         self.found: list[Fault] = []
 
     def add(self, message: str, mark: Mark | None = None, address: str = "") -> None:
-        """Add a fault; the same words about the same place, for another address, are one mistake."""
+        """Add a fault. A fault with the same text and place as an earlier one is dropped, also for another address."""
         known = (fault for fault in self.found if fault.mark == mark and fault.message == message)
         if not any(fault.address == address or (mark and mark.line) for fault in known):
             self.found.append(Fault(message, mark, address))
@@ -135,24 +149,24 @@ def _place(fault: Fault) -> tuple[str, int, int]:
 
 
 def nearest(word: str, known: Iterable[str]) -> str | None:
-    """The known word that was probably meant."""
+    """The known word that is most similar to a misspelt one; None if none is similar."""
     near = difflib.get_close_matches(word[:_LONGEST], sorted(known), n=1, cutoff=0.6)
     return near[0] if near else None
 
 
 def with_article(noun: str) -> str:
-    """a muscle, an activation"""
+    """The noun with its indefinite article: a muscle, an activation."""
     return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
 
 
 def alternatives(words: Iterable[str]) -> str:
-    """Words as they are offered: cma, ga, pso or de."""
+    """Words as a choice: cma, ga, pso or de."""
     *others, last = words
     return " or ".join([", ".join(others), last])
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
-    """A hint at the nearest known word, or the list of all known ones."""
+    """A hint for an unknown word: the most similar known word, or all known words."""
     words = sorted(known)
     near = nearest(word, words)
     if near:

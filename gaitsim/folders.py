@@ -1,6 +1,6 @@
-"""The user's own folders: a cache of what can be made again, what gaitsim must remember, and results.
+"""The user's own folders: the cache, the state that gaitsim must remember, and results.
 
-The first two hold what decides which code runs, so neither is ever looked for from the current folder.
+Cache and state decide which code runs. They are therefore never looked up relative to the current folder.
 """
 
 from __future__ import annotations
@@ -10,26 +10,41 @@ from pathlib import Path
 
 
 def cache_folder() -> Path | None:
-    """$GAITSIM_CACHE, or gaitsim's folder in the user's cache; None where there is no absolute path to it."""
+    """Find the cache folder.
+
+    Returns:
+        $GAITSIM_CACHE, or the folder of gaitsim in the user's cache; None if neither is an absolute path.
+    """
     if own := os.environ.get("GAITSIM_CACHE"):
         return _absolute(own)
     return _below("XDG_CACHE_HOME", ".cache")
 
 
 def state_folder() -> Path | None:
-    """The folder gaitsim in $GAITSIM_STATE, or in the user's state; None where there is no absolute path to it."""
+    """Find the folder of what gaitsim must remember.
+
+    Returns:
+        The folder gaitsim in $GAITSIM_STATE or in the user's state; None if neither is an absolute path.
+    """
     if own := os.environ.get("GAITSIM_STATE"):
         return _absolute(f"{own}/gaitsim")
     return _below("XDG_STATE_HOME", ".local/state")
 
 
 def results_folder(said: Path | None = None) -> Path:
-    """Where results are: the folder that was said, or else $GAITSIM_RESULTS, or results in the current folder."""
+    """Find the folder of results.
+
+    Args:
+        said: The folder that the user named, if any.
+
+    Returns:
+        That folder, or else $GAITSIM_RESULTS, or else results in the current folder.
+    """
     return said if said is not None else Path(os.environ.get("GAITSIM_RESULTS") or "results")
 
 
 def _below(variable: str, usual: str) -> Path | None:
-    """Our folder where the XDG base directory specification puts it; a relative path says nothing there."""
+    """The folder of gaitsim by the XDG base directory specification, which does not allow relative paths."""
     said = Path(os.environ.get(variable, ""))
     if said.is_absolute():
         return said / "gaitsim"

@@ -1,4 +1,4 @@
-"""A model: every part, number and connection of a spec, resolved to SI; it never changes."""
+"""The resolved model: every part, number and connection of a spec, in SI. A model is immutable."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ TERMS = "terms"  # the input of an objective that the costs of its terms are add
 
 @dataclass(frozen=True)
 class Number:
-    """One number of the model: fixed, free (tuned), or computed from numbers before it.
+    """A number of the model: fixed, tuned (free), or computed from numbers before it.
 
     Attributes:
-        unit: The one it is written in outside; inside, its value is in SI.
+        unit: The unit in which it is written and shown; the value is in SI.
     """
 
     address: str
@@ -36,10 +36,10 @@ class Number:
 
 @dataclass(frozen=True)
 class Free:
-    """A tuned number: bounds, start and spread in SI, and every address it drives.
+    """A tuned number: bounds, start and spread in SI, and every address that it sets.
 
     Attributes:
-        unit: The one it is written in outside.
+        unit: The unit in which it is written and shown.
     """
 
     address: str
@@ -53,7 +53,13 @@ class Free:
     mark: Mark | None = field(default=None, compare=False)
 
     def moved(self, value: float, start: float, origin: str) -> str:
-        """What is said of a start that was outside the bounds."""
+        """The warning for a start outside the bounds, which was moved to the nearer bound.
+
+        Args:
+            value: The start that was asked for, in SI.
+            start: The bound that is used instead, in SI.
+            origin: The file that the start comes from; empty if unknown.
+        """
         said = self.unit.shown(value) + (f" from {origin}" if origin else "")
         rule = f"{said} is outside {self.unit.span(self.low, self.high)}, so it starts at {self.unit.shown(start)}"
         return f"warning: {self.address}: {rule}; widen tune, or tune it anew."
@@ -61,7 +67,7 @@ class Free:
 
 @dataclass(frozen=True)
 class Place:
-    """A point on a frame: three coordinates as numbers of the model."""
+    """A point relative to a frame; its three coordinates are numbers of the model."""
 
     frame: str
     at: tuple[int, int, int]
@@ -69,7 +75,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Recording:
-    """The numbers of a series in SI, the column that they come from, who recorded it, and the unit of its text."""
+    """The values of a series in SI, its column, its source, and the unit of its text."""
 
     values: tuple[float, ...]
     column: str = ""
@@ -79,11 +85,11 @@ class Recording:
 
 @dataclass(frozen=True)
 class Part:
-    """One primitive in its place.
+    """A primitive component at its address in the model.
 
     Attributes:
-        attachments: The frame, or the body, that each is on.
-        places: Of those that lie beside it, where.
+        attachments: By attachment, the frame or the body that the part is fastened to.
+        places: The coordinates of the attachments that lie beside a frame.
     """
 
     address: str
@@ -101,19 +107,23 @@ class Part:
 
     @property
     def coordinates(self) -> tuple[int, ...]:
-        """The numbers that say where its points and its attachments beside a frame lie."""
+        """The indices of the numbers that place its points and its attachments beside frames."""
         named = (*self.points.values(), *self.places.values())
         return tuple(number for places in named for place in places for number in place.at)
 
     @property
     def guarded(self) -> bool:
-        """Whether it has events."""
+        """Whether the part has events."""
         return "reset" in self.type.functions
 
 
 @dataclass(frozen=True)
 class Group:
-    """One composite in its place; `before` is the index of the first part opened after it."""
+    """A composite component at its address in the model.
+
+    Attributes:
+        before: The index of the first part that was made after it.
+    """
 
     address: str
     reference: str
@@ -123,7 +133,13 @@ class Group:
 
 @dataclass(frozen=True)
 class Connection:
-    """A signal's way from an output to an input; `made_by` a part if no spec wrote it."""
+    """A connection from an output to an input.
+
+    Attributes:
+        sender: The address of the output.
+        target: The address of the input.
+        made_by: The part that makes the connection; empty if the spec does.
+    """
 
     sender: str
     target: str
@@ -135,7 +151,7 @@ class Connection:
 
 @dataclass(frozen=True)
 class Signal:
-    """One number that is recorded at every instant; a state may have names for its values 0, 1, ..."""
+    """A number that is recorded at every instant. A state with levels has names for the values 0, 1, ..."""
 
     address: str
     unit: str
@@ -163,7 +179,7 @@ class KnownValue:
 
 @dataclass(frozen=True)
 class Simulate:
-    """How long and in which steps, in SI."""
+    """The duration and the step of a simulation, in seconds."""
 
     duration: float
     step: float
@@ -173,9 +189,9 @@ class Simulate:
 
 @dataclass(frozen=True)
 class Objective:
-    """The part that turns metrics into a cost: its input -> the address of a metric.
+    """The component that computes the cost from metrics, with the metric for each of its inputs.
 
-    Its terms are objectives themselves; their costs are added to its input `terms`.
+    Its terms are objectives too; their costs are added to its input `terms`.
     """
 
     part: Part
@@ -184,7 +200,7 @@ class Objective:
 
     @property
     def all(self) -> tuple[Objective, ...]:
-        """It and its terms, and theirs."""
+        """The objective, its terms, and their terms."""
         return (self, *(inner for term in self.terms for inner in term.all))
 
 
@@ -210,13 +226,17 @@ class Model:
 
     @property
     def start(self) -> list[float]:
-        """The values of the free numbers that `run` uses."""
+        """The start of every tuned number, in SI. `gaitsim run` simulates these values."""
         return [free.start for free in self.free]
 
     def started_at(self, values: Mapping[str, float], origin: str = "") -> Model:
-        """The same model with other starts, in SI, matched by address.
+        """The same model with other starts.
 
-        One outside its bounds starts at the nearer bound, and a notice says so; `origin` is where it comes from.
+        A start outside the bounds is moved to the nearer bound, and a notice says so.
+
+        Args:
+            values: Starts in SI by address; addresses that are not tuned are ignored.
+            origin: The file that the starts come from.
         """
         free, moved = [], []
         for each in self.free:
@@ -228,7 +248,13 @@ class Model:
         return replace(self, free=tuple(free), notices=(*self.notices, *moved))
 
     def values(self, candidate: Sequence[float] | None = None) -> list[float]:
-        """Every number for a candidate: the values of `free`, in its order.
+        """Compute every number of the model for a candidate.
+
+        Args:
+            candidate: The values of `free`, in its order and in SI; the starts by default.
+
+        Returns:
+            One value in SI for each of `numbers`.
 
         Raises:
             SimulationFailed: An expression has no value there.
@@ -241,7 +267,7 @@ class Model:
 
     @cached_property
     def varying(self) -> tuple[bool, ...]:
-        """Which numbers differ between candidates: tuned ones, and what is computed from them."""
+        """For each number, whether it differs between candidates: the tuned ones and all that depend on them."""
         found: list[bool] = []
         for number in self.numbers:
             read = [index for _, index in number.expression.names] if number.expression else []
@@ -251,7 +277,7 @@ class Model:
 
     @cached_property
     def _fixed(self) -> tuple[float, ...]:
-        """The numbers that all candidates share; nan where they differ."""
+        """The numbers that all candidates share; nan for the others."""
         values: list[float] = []
         for number, varies in zip(self.numbers, self.varying, strict=True):
             values.append(math.nan if varies else _value(number, values, ()))
@@ -259,7 +285,7 @@ class Model:
 
     @property
     def metrics(self) -> dict[str, str]:
-        """Every metric and its unit."""
+        """The unit of every metric."""
         return metric_units(self.parts, self.connections)
 
 
@@ -276,17 +302,20 @@ def _value(number: Number, before: list[float], chosen: Sequence[float]) -> floa
 
 
 def metric_names(part: Part) -> dict[str, str]:
-    """A measure's metrics: its own name -> the name in the outcome."""
+    """The metrics of a measure: from the name within the component to the name in the outcome."""
     return {name: part.address if name == "value" else f"{part.address}.{name}" for name in part.type.metrics}
 
 
 def headline_metrics(names: Collection[str]) -> list[str]:
-    """Of metrics those that bear their measure's name, and all of a measure that has none such."""
+    """The metrics with the name of their measure, and all metrics of a measure that has no such metric."""
     return [name for name in names if name.rpartition(".")[0] not in names]
 
 
 def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> dict[str, str]:
-    """Every metric and its unit; one left open is that of the signal that is measured, or of the series it is like."""
+    """The unit of every metric.
+
+    A metric with the unit `*` has the unit of the measured signal, or of the series that it is declared like.
+    """
     units = {f"{p.address}.{n}": o.unit for p in parts for n, o in p.type.outputs.items()}
     measured = {
         c.target.rpartition(".")[0]: units[c.sender]
@@ -303,9 +332,11 @@ def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> di
 
 
 def headed(metric: str, models: Iterable[Model]) -> str:
-    """A metric as the heading of a column: hop [m], or speed for a plain number.
+    """A metric as the heading of a column, such as `hop [m]`; a plain number has no unit.
 
-    Its unit is that of all the models; where they differ, as a measured signal does, all are named.
+    Args:
+        metric: The name of the metric.
+        models: The models that have it. If their units differ, the heading names all of them.
     """
     units = dict.fromkeys(unit for model in models if (unit := model.metrics.get(metric)))
     said = " or ".join(units)
@@ -313,12 +344,12 @@ def headed(metric: str, models: Iterable[Model]) -> str:
 
 
 def _like(unit: str, other: str) -> str:
-    """A unit, if it is one of the other's quantity; else the other."""
+    """A unit, if it measures the same quantity as the other; else the other."""
     return unit if other == "*" or parse_unit(unit).dimension == parse_unit(other).dimension else other
 
 
 def recorded_signals(model: Model) -> tuple[Signal, ...]:
-    """What a trajectory has: every output, and every state that is one number and no measure's."""
+    """The signals of a trajectory: every output, and every state of one number except those of measures."""
     found = []
     for part in model.parts:
         place = part.address

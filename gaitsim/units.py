@@ -1,4 +1,4 @@
-"""Units at the border, SI inside: text such as "30 deg" becomes a number and a dimension."""
+"""Units of the text outside, SI inside: "30 deg" becomes a number and a dimension."""
 
 from __future__ import annotations
 
@@ -59,12 +59,12 @@ _SAID = {
 
 
 class UnknownUnit(ValueError):
-    """A text that is not a unit of the list."""
+    """A text that is not a known unit."""
 
 
 @dataclass(frozen=True)
 class Dimension:
-    """Exponents over length, mass, time, angle, temperature, current, and any: a unit left open."""
+    """Exponents of length, mass, time, angle, temperature and current, and of `any` for a unit that is left open."""
 
     exponents: tuple[Fraction, ...] = (Fraction(0),) * len(_BASES)
 
@@ -80,7 +80,7 @@ class Dimension:
 
     @property
     def without_angle(self) -> Dimension:
-        """As the audit sees it: rad = 1, or r*theta would be no length."""
+        """The dimension with rad = 1, as the audit needs it: otherwise r*theta would not be a length."""
         if not self.exponents[_ANGLE]:
             return self
         return Dimension((*self.exponents[:_ANGLE], Fraction(0), *self.exponents[_ANGLE + 1 :]))
@@ -99,12 +99,12 @@ class Dimension:
         return f"{over or '1'}/{under}" if under else over
 
     def __str__(self) -> str:
-        """In words, with the article: a force; else its formula."""
+        """The name of the quantity with its article, such as a force; the formula if it has no name."""
         return _SAID.get(self.formula, f"a quantity of {self.formula}")
 
     @property
     def si(self) -> str:
-        """The SI unit of this dimension, in base units."""
+        """The SI unit of this dimension, made of base units."""
         names = dict(zip(_BASES, ("m", "kg", "s", "rad", "K", "A", "*"), strict=True))
         text = self.formula
         for base, name in names.items():
@@ -133,19 +133,22 @@ class Unit:
 
     @property
     def si(self) -> str:
-        """The SI unit for the same, word by word: N/m for N/cm; itself if it is one."""
+        """The SI unit of the same quantity, word by word, such as N/m for N/cm."""
         if self.factor == 1:
             return self.text
         return "1" if self.dimension.plain else re.sub(r"[A-Za-z%]+", lambda word: _coherent(word[0]), self.text)
 
     def to_si(self, number: float) -> float:
-        """The value in SI of a number in this unit, as a spec's text gives it."""
+        """Convert a number in this unit to SI."""
         return scaled(number, self.factor)
 
     def of(self, value: float) -> float:
-        """The number in this unit of a value in SI: the shortest that reads back bit for bit.
+        """Convert a value in SI to this unit.
 
-        Of some values none does (of every tenth angle between 1 and 2 deg); then the nearest.
+        Returns:
+            The shortest number that converts back to the value bit for bit. Some values have none (every tenth angle
+                between
+            1 and 2 deg); the nearest number is returned for these.
         """
         if self.factor == 1 or not math.isfinite(value):
             return value
@@ -158,21 +161,21 @@ class Unit:
         return next((number for number in around if self.to_si(number) == value), near)
 
     def exactly(self, value: float) -> str:
-        """A value in SI as text that reads back bit for bit: in this unit, or in SI's where no number of it does."""
+        """A value in SI as text that reads back bit for bit: in this unit, or in SI if no number in this unit does."""
         number = self.of(value)
         return with_unit(repr(number), self.text) if self.to_si(number) == value else with_unit(repr(value), self.si)
 
     def shown(self, value: float) -> str:
-        """A value in SI as people read it: 5 deg."""
+        """A value in SI as text for people, such as 5 deg."""
         return with_unit(f"{self.of(value):g}", self.text)
 
     def span(self, low: float, high: float) -> str:
-        """A range in SI as people read it: 5 to 40 deg."""
+        """A range in SI as text for people, such as 5 to 40 deg."""
         return with_unit(f"{self.of(low):g} to {self.of(high):g}", self.text)
 
 
 def with_unit(number: str, unit: str) -> str:
-    """A number and the unit that it is in, as text; a plain number stands alone."""
+    """A number and its unit as text; a plain number has no unit."""
     return number if unit == "1" else f"{number} {unit}"
 
 
@@ -189,7 +192,10 @@ def _coherent(word: str) -> str:
 
 @cache
 def parse_unit(text: str) -> Unit:
-    """The unit that a text names: N, kg m^2, m/s^2, deg/s, %, 1; `*` leaves it open.
+    """Read a unit.
+
+    Args:
+        text: Such as N, kg m^2, m/s^2, deg/s, %, 1; `*` leaves the unit open.
 
     Raises:
         UnknownUnit: The text is not a unit.
@@ -210,7 +216,7 @@ _Scaled = tuple[float, Dimension]  # the SI value of one, and its dimension
 
 
 class _Reader:
-    """Reads products, quotients and powers of units; a space multiplies, from left to right."""
+    """Reads products, quotients and powers of units. A space multiplies; operators apply from left to right."""
 
     def __init__(self, text: str) -> None:
         self.tokens: list[str] = []
@@ -283,7 +289,7 @@ _SPELLINGS: dict[str, tuple[str, float]] = {
 
 
 def _named(word: str) -> _Scaled:
-    """A unit by one word, such as kN, degree or 1.
+    """A unit of one word, such as kN, degree or 1.
 
     Raises:
         LookupError: There is no such unit.
@@ -299,7 +305,7 @@ def _named(word: str) -> _Scaled:
 
 
 def _shortest(factor: float) -> float:
-    """Powers of ten without the last bit's noise: 1e-3 * 1000.0 is 1."""
+    """A factor without the rounding error of powers of ten: 1e-3 * 1000.0 is 1."""
     short = float(f"{factor:.12g}")
     return short if abs(short - factor) <= 4 * math.ulp(factor) else factor
 
@@ -309,17 +315,20 @@ _NUMBER = re.compile(r"\s*([-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?
 
 @dataclass(frozen=True)
 class Quantity:
-    """A number in SI and the unit it was written in."""
+    """A value in SI and the unit in which it was written."""
 
     value: float
     unit: Unit
 
 
 def parse_quantity(text: str | float) -> Quantity | None:
-    """The quantity a text names, such as "30 deg"; None if it does not begin with a number.
+    """Read a quantity, such as "30 deg".
+
+    Returns:
+        The quantity; None if the text does not begin with a number.
 
     Raises:
-        UnknownUnit: With the unit's text.
+        UnknownUnit: The text after the number is not a unit.
     """
     if isinstance(text, int | float):
         return Quantity(float(text), parse_unit("1"))
@@ -331,11 +340,11 @@ def parse_quantity(text: str | float) -> Quantity | None:
 
 
 def scaled(number: float, factor: float) -> float:
-    """number * factor, dividing where that is exact: "15 ms" is 0.015, not 0.015000000000000001."""
+    """number * factor, by division where that is exact: "15 ms" is 0.015 and not 0.015000000000000001."""
     inverse = 1 / factor
     return number / inverse if factor < 1 and inverse == round(inverse) else number * factor
 
 
 def known_units() -> tuple[str, ...]:
-    """The units that errors suggest."""
+    """The units that error messages suggest."""
     return _NAMES

@@ -1,4 +1,4 @@
-"""Files that are whole or absent: written as a draft beside their place, then renamed onto it."""
+"""Files that are complete or absent: a draft is written beside the file, then renamed to it."""
 
 from __future__ import annotations
 
@@ -12,19 +12,23 @@ PARTIAL = ".partial"  # how the name of a draft ends
 
 
 def draft_of(path: Path) -> Path:
-    """Where the draft of a file or a folder lies."""
+    """The path of the draft of a file or a folder."""
     return path.with_name(f"{path.name}{PARTIAL}")
 
 
 @contextmanager
 def whole(path: Path, draft: Path | None = None) -> Iterator[Path]:
-    """The draft of a file, which takes its place at the end of the block.
+    """Replace a file by a draft at the end of the block.
 
     Args:
-        draft: One of a name of its own, where several processes may write the same file.
+        path: The file.
+        draft: Another path for the draft, for a file that several processes may write at once.
+
+    Yields:
+        The path of the draft, to be written within the block.
 
     Raises:
-        OSError: With no draft left behind and what stood there before as it was.
+        OSError: Writing failed. The draft is removed, and the file is unchanged.
     """
     beside = draft or draft_of(path)
     try:
@@ -37,20 +41,27 @@ def whole(path: Path, draft: Path | None = None) -> Iterator[Path]:
 
 
 def write_whole(path: Path, text: str) -> None:
-    """Write a text as a whole.
+    """Write a text file completely.
+
+    Args:
+        path: The file.
+        text: Its new content.
 
     Raises:
-        OSError: With what stood there before as it was.
+        OSError: Writing failed. The file is unchanged.
     """
     with whole(path) as draft:
         draft.write_text(text, encoding="utf-8")
 
 
 def onto_disk(file: IO[str] | IO[bytes]) -> None:
-    """Make sure that what was written is on the disk, so that a crash of the machine leaves it.
+    """Flush a file to the disk, so that its content survives a crash of the machine.
+
+    Args:
+        file: An open file.
 
     Raises:
-        OSError: The file cannot be read or written.
+        OSError: The disk cannot be written.
     """
     file.flush()
     os.fsync(file.fileno())

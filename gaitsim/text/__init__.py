@@ -1,1 +1,1 @@
-"""Text with a place: documents, quantities, expressions, and hints on spelling."""
+"""Text with places: documents, quantities, expressions and spelling hints."""

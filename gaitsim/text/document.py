@@ -1,4 +1,4 @@
-"""The text of a spec as data that knows its places: YAML with five scalar rules of our own."""
+"""The text of a spec as data with places: YAML with five own rules for scalars."""
 
 from __future__ import annotations
 
@@ -50,7 +50,8 @@ class SequenceNode:
 class MappingNode:
     """Nodes by key, in the order of the text, with the place of each key.
 
-    `swapped` are the words that an entry kept from a component it no longer uses.
+    Attributes:
+        swapped: Keys that were written for a component which `use:` replaced.
     """
 
     entries: dict[str, Node]
@@ -63,16 +64,29 @@ Node = Union[ScalarNode, SequenceNode, MappingNode]  # noqa: UP007 (the names be
 
 
 def read(path: Path, shown: str | None = None) -> MappingNode:
-    """The document in a file; `shown` is how errors name that file."""
+    """Read a document from a file.
+
+    Args:
+        path: The file.
+        shown: The name of the file in messages; the path by default.
+
+    Raises:
+        InvalidSpec: The file cannot be read, or its text is not a document.
+    """
     name = str(path) if shown is None else shown
     return parse(text_of(path, name), name)
 
 
 def text_of(path: Path, name: str, what: str = "spec") -> str:
-    """The text in a file of ours; `name` is how errors name it.
+    """Read a text file.
+
+    Args:
+        path: The file.
+        name: The name of the file in messages.
+        what: What the file should be, for messages.
 
     Raises:
-        InvalidSpec: It is no readable text of a reasonable size.
+        InvalidSpec: The file is missing, too large, or not UTF-8.
     """
     try:
         status = path.stat()
@@ -99,7 +113,15 @@ def text_of(path: Path, name: str, what: str = "spec") -> str:
 
 
 def parse(text: str, file: str) -> MappingNode:
-    """The document that a text holds; `file` is how errors name the text."""
+    """Read a document from a text.
+
+    Args:
+        text: YAML.
+        file: The name of the text in messages.
+
+    Raises:
+        InvalidSpec: The text is not a document; the error has every fault.
+    """
     reader = _Reader(text, file)
     top = reader.document()
     if top is None:
@@ -111,7 +133,15 @@ def parse(text: str, file: str) -> MappingNode:
 
 
 def parse_value(text: str, file: str) -> Node:
-    """The value that a piece of text holds, by the same rules; its marks have no line."""
+    """Read one value by the rules of documents. Its places have no line.
+
+    Args:
+        text: The value, as after `--set ADDRESS=`.
+        file: The name of the text in messages.
+
+    Raises:
+        InvalidSpec: The text is not a value.
+    """
     value = _Reader(text, file, lines_count=False).document()
     if value is None:
         raise _refused(file, "there is no value; write one, in quotes if it begins with #.")
@@ -128,7 +158,7 @@ def plain(node: Node) -> Any:
 
 
 def dump(data: Any) -> str:
-    """A mapping of plain data as YAML that parse() reads back identically."""
+    """Write plain data as YAML that `parse` reads back identically."""
     if not isinstance(data, dict):
         raise TypeError(f"a document is a dict, not a {type(data).__name__}")
     node = _represented(data)
@@ -138,7 +168,7 @@ def dump(data: Any) -> str:
 
 
 def scalar(text: str) -> bool | int | float | str | None:
-    """What an unquoted text means; infinite if its number is too large."""
+    """The meaning of an unquoted text. A number that is too large becomes infinite."""
     if text in _WORDS:
         return _WORDS[text]
     if _INTEGER.fullmatch(text):
@@ -147,7 +177,7 @@ def scalar(text: str) -> bool | int | float | str | None:
 
 
 class _Reader:
-    """Turns YAML's events into nodes and collects what it refuses."""
+    """Makes nodes from YAML events, and collects faults."""
 
     def __init__(self, text: str, file: str, lines_count: bool = True) -> None:
         # Events rather than yaml.compose: composing loses anchors and recurses without a limit.
@@ -248,7 +278,9 @@ class _Reader:
         return MappingNode(entries, keys, mark)
 
     def decimal_comma(self, key: yaml.Event, value: Node, before: dict[str, Node]) -> str:
-        """What is wrong if a key is the rest of a number with a comma, as in {mass: 2,5 kg}; empty if it is none."""
+        """The fault of a key that is the rest of a number with a decimal comma, as in {mass: 2,5 kg}; empty for other
+        keys.
+        """
         number, rest, begin = next(reversed(before.values()), None), getattr(key, "value", ""), key.start_mark
         if begin is None or not isinstance(number, ScalarNode) or plain(value) is not None or not rest[:1].isdigit():
             return ""
@@ -296,7 +328,7 @@ def _refused(name: str, message: str) -> InvalidSpec:
 
 
 class _Dumper(_DUMPER):  # type: ignore[misc]  # either one, known when imported
-    """Quotes a text exactly if, unquoted, it would mean something else here."""
+    """Quotes a text only if it would have another meaning without quotes."""
 
     def resolve(self, kind: Any, value: Any, implicit: Any) -> str:
         text = kind is not yaml.ScalarNode or not implicit[0] or isinstance(scalar(value), str)

@@ -1,4 +1,4 @@
-"""Expressions such as `=0.245 * height`: only the own mask's parameters, units checked."""
+"""Expressions such as `=0.245 * height`: they may name parameters of their own mask, and their units are checked."""
 
 from __future__ import annotations
 
@@ -30,19 +30,22 @@ _RULE = "an expression holds numbers, parameters of its mask, + - * / ** and fun
 
 
 class BadExpression(ValueError):
-    """What is wrong with an expression, in words."""
+    """An expression is not valid; the text says why."""
 
 
 @dataclass(frozen=True)
 class Expression:
-    """A checked expression: its text, compiled, and the numbers it reads by name."""
+    """A checked expression: its text, its code, and the numbers that it reads, by name."""
 
     text: str
     code: CodeType
     names: tuple[tuple[str, int], ...]
 
     def value(self, numbers: list[float]) -> float:
-        """The value for these numbers.
+        """Compute the expression.
+
+        Args:
+            numbers: All numbers of the model before this one, in SI.
 
         Raises:
             ArithmeticError: The expression has no value.
@@ -56,10 +59,15 @@ class Expression:
 
 
 def parse_expression(text: str, unit: str, scope: Mapping[str, tuple[int, str]]) -> Expression:
-    """Check `text` (without the `=`) against the names of a mask: name -> (number, unit).
+    """Read and check an expression.
+
+    Args:
+        text: The expression without the `=`.
+        unit: The unit that the result must have.
+        scope: The parameters that it may name: the index of the number, and its unit.
 
     Raises:
-        BadExpression: The expression is not valid.
+        BadExpression: It cannot be read, names something else, or has another unit.
     """
     tree = _parsed(text)
     units = {name: parse_unit(u).dimension.without_angle for name, (_, u) in scope.items()}
@@ -73,7 +81,9 @@ def parse_expression(text: str, unit: str, scope: Mapping[str, tuple[int, str]])
 
 
 def _parsed(text: str) -> ast.Expression:
-    """The tree of an expression, its numbers as floats: powers of whole numbers may grow without end."""
+    """The syntax tree of an expression. Its integers become floats, because powers of integers can grow without
+    limit.
+    """
     if not text.strip():
         raise BadExpression("there is no expression after the =; write such as =0.5 * height.")
     try:
@@ -94,7 +104,7 @@ def _parsed(text: str) -> ast.Expression:
 
 
 def _open(dimension: Dimension) -> bool:
-    """Whether a unit was left open, or could not be read: it then fits any."""
+    """Whether a unit was left open or could not be read; such a unit fits every other one."""
     return bool(dimension.exponents[-1])
 
 

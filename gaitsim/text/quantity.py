@@ -1,4 +1,4 @@
-"""Nodes that hold quantities: "22 kN" where a force is declared becomes 22000.0."""
+"""Quantities in nodes: "22 kN" becomes 22000.0 where a force is declared."""
 
 from __future__ import annotations
 
@@ -38,30 +38,34 @@ _THOUSANDS = re.compile(r"\b\d{1,3}(,\d{3})+(?!\d)")
 
 
 def example(unit: str) -> str:
-    """A quantity of this unit as one would write it."""
+    """An example of a quantity in a unit, for messages."""
     return _EXAMPLES.get(unit, f"1 {unit}")
 
 
 def measured(unit: Unit) -> str:
-    """What a unit measures, in words; one without a word for it speaks for itself."""
+    """The quantity that a unit measures, with its article; the unit itself if the quantity has no name."""
     nameless = unit.noun_phrase == f"a quantity of {unit.dimension.formula}"
     return f"a value in {unit.text}" if nameless else unit.noun_phrase
 
 
 def needed(unit: str) -> str:
-    """What a declaration in this unit asks for, with an example."""
+    """What a declaration with this unit needs, with an example."""
     return f'this needs {measured(parse_unit(unit))}, such as "{example(unit)}"'
 
 
 class BadQuantity(ValueError):
-    """A text that is no quantity of the unit that is asked for; its words say why, and what to write."""
+    """A text is not a quantity of the unit that is needed; the message says why and what to write."""
 
 
 def quantity_of(text: str | float, unit: str) -> Quantity:
-    """The quantity that a text says where `unit` is declared.
+    """Read a quantity where a unit is declared.
+
+    Args:
+        text: The quantity, or a plain number.
+        unit: The declared unit.
 
     Raises:
-        BadQuantity: The text is not a quantity of this unit.
+        BadQuantity: The text is not a number, or its unit does not fit.
     """
     try:
         quantity = parse_quantity(text)
@@ -76,7 +80,9 @@ def quantity_of(text: str | float, unit: str) -> Quantity:
 
 
 def in_plain_letters(text: str | float) -> str:
-    """What to write for a quantity that only its letters keep from being one, such as 2,5 kg or 170°; else empty."""
+    """The correction of a quantity with letters that specs do not have, such as 2,5 kg or 170°; empty if there is
+    none.
+    """
     written = "".join(str(decimal(letter)) if letter.isdecimal() else letter for letter in str(text))
     for letters, plain in _PLAIN.items():
         written = re.sub(letters, plain, written)
@@ -102,7 +108,7 @@ def _is_quantity(text: str) -> bool:
 
 
 def unknown_unit(text: str) -> str:
-    """What is wrong with a text that is no unit."""
+    """The message for a text that is not a unit."""
     wrong = next((word for word in re.findall(r"[A-Za-z%]+", text) if not _is_unit(word)), "")
     if not wrong:
         return f'"{text}" is no unit; write one such as N m/rad or kg m^2.'
@@ -124,7 +130,9 @@ def _is_unit(text: str) -> bool:
 
 
 def comma_within(node: SequenceNode) -> str:
-    """What to write for a number whose decimal comma made two items of a list, such as [1,5 kg]; else empty."""
+    """The hint for a decimal comma that split a number into two items of a list, such as [1,5 kg]; empty if there is
+    none.
+    """
     items = node.items
     for first, second in itertools.pairwise(items):
         if isinstance(first, ScalarNode) and isinstance(second, ScalarNode) and type(first.value) is int:
@@ -145,7 +153,17 @@ def _has_unit(text: str) -> bool:
 
 
 def number(node: Node, unit: str, faults: Faults, address: str) -> float | None:
-    """The SI value of a scalar node where `unit` is declared; None after a fault."""
+    """The value in SI of a scalar node.
+
+    Args:
+        node: The node.
+        unit: The declared unit.
+        faults: Receives a fault if the node is not such a number.
+        address: The address that the fault belongs to.
+
+    Returns:
+        The value; None after a fault.
+    """
     if not isinstance(node, ScalarNode) or isinstance(node.value, bool) or node.value is None:
         hint = comma_within(node) if isinstance(node, SequenceNode) else ""
         faults.add(f"{said(node)} is no number; {needed(unit)}.{hint}", node.mark, address)
@@ -158,7 +176,7 @@ def number(node: Node, unit: str, faults: Faults, address: str) -> float | None:
 
 
 def written_unit(node: Node | None) -> Unit | None:
-    """The unit that a scalar, or the first one of a list, is written in; None if it is no quantity."""
+    """The unit in which a scalar, or the first item of a list, is written; None if it is not a quantity."""
     first = node.items[0] if isinstance(node, SequenceNode) and node.items else node
     if not isinstance(first, ScalarNode) or isinstance(first.value, bool) or first.value is None:
         return None
@@ -170,13 +188,13 @@ def written_unit(node: Node | None) -> Unit | None:
 
 
 def number_with_unit(node: Node, unit: str, faults: Faults, address: str) -> float | None:
-    """As `number`, but in the declared unit instead of SI."""
+    """The value of a scalar node in the declared unit; otherwise like `number`."""
     value = number(node, unit, faults, address)
     return None if value is None else parse_unit(unit).of(value)
 
 
 def mismatch(quantity: Quantity, declared: Unit) -> str:
-    """What is wrong with a quantity; empty if it is finite and its unit fits."""
+    """The message for a quantity that is not finite or has the wrong unit; empty if it fits."""
     given = quantity.unit
     if not math.isfinite(quantity.value):
         return "this number is too large; write one below 1.8e308."
@@ -195,7 +213,7 @@ def mismatch(quantity: Quantity, declared: Unit) -> str:
 
 
 def said(node: Node) -> str:
-    """A node as an error names it."""
+    """A node as messages show it."""
     if isinstance(node, ScalarNode):
         shown = {None: "nothing", True: "true", False: "false"}
         return shown.get(node.value, f'"{node.value}"')  # type: ignore[arg-type]

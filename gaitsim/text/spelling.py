@@ -1,4 +1,4 @@
-"""Misspelt keys: told once, and read as what was meant, so that nothing else is missed for want of them."""
+"""Misspelt keys: each is reported once, and then read as the key that was meant, so that checking can continue."""
 
 from __future__ import annotations
 
@@ -11,10 +11,11 @@ from gaitsim.text.document import MappingNode, Node
 def respelled(
     node: MappingNode, known: Iterable[str], lack: str, faults: Faults, address: str = "", more: Iterable[str] = ()
 ) -> MappingNode:
-    """The mapping with known keys; an unknown one is a fault and stands in for what it resembles.
+    """The mapping with known keys. An unknown key is a fault, and takes the place of the key that it resembles.
 
-    `lack` are the words before the unknown one, such as "a spec has no key"; `more` are known
-    keys that hints leave out.
+    Args:
+        lack: The words before the unknown key in the message, such as "a spec has no key".
+        more: Known keys that hints leave out.
     """
     words = list(known)
     entries: dict[str, Node] = {}

@@ -1,4 +1,4 @@
-"""Mistakes in the YAML itself, in sentences."""
+"""Messages for errors in the YAML itself."""
 
 from __future__ import annotations
 
@@ -14,7 +14,15 @@ _BRACED = re.compile(r"[^\s,\[\]{}:]*\{[^\s{}]*\}[^\s,\[\]{}]*")
 
 
 def explained(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[str, int, int]:
-    """A sentence for a mistake in the YAML itself, with its line and column from 0."""
+    """Explain an error of the YAML parser.
+
+    Args:
+        error: The error.
+        lines: The text.
+
+    Returns:
+        The message, the line and the column, both from 0.
+    """
     at = error.problem_mark or error.context_mark
     start = error.context_mark or at
     if at is None or start is None:
