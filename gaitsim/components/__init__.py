@@ -1,1 +1,1 @@
-"""Component files of a library: found, loaded, and held against their kind."""
+"""Component files of a library: finding, loading and checking them."""

@@ -14,7 +14,14 @@ _KEY = re.compile(r"(?=[a-z_]*\d)[A-Za-z]\w*")
 
 
 def read_bibliography(folders: Iterable[Path]) -> dict[str, str]:
-    """Every entry of the folders' references.bib by its key; the nearest folder wins."""
+    """Read the `references.bib` files of a library.
+
+    Args:
+        folders: The folders of the library, nearest first.
+
+    Returns:
+        BibTeX entries by key; the nearest folder with a key counts.
+    """
     found: dict[str, str] = {}
     for folder in folders:
         path = folder / FILE
@@ -24,24 +31,24 @@ def read_bibliography(folders: Iterable[Path]) -> dict[str, str]:
 
 
 def entries(text: str) -> dict[str, str]:
-    """The entries of a BibTeX text by key, each as it stands there."""
+    """The entries of a BibTeX text by key, unchanged."""
     return {head[2]: _entry(text, head.start()) for head in _HEAD.finditer(text)}
 
 
 def keys_of(source: str) -> list[str]:
-    """The keys that a source names: words of letters, then digits, before its first colon."""
+    """The keys in a source: words of letters followed by digits, before the first colon."""
     return [word for word in re.findall(r"\w+", source.split(":")[0]) if _KEY.fullmatch(word)]
 
 
 def unknown_key(key: str, keys: set[str]) -> str:
-    """What is said of a source that is in no bibliography."""
+    """The message for a key that is not in the bibliography."""
     near = nearest(key, keys)
     hint = f"Did you mean {near}?" if near else f"Add it to {FILE} of your library."
     return f"the source {key} is in no {FILE}. {hint}"
 
 
 def _entry(text: str, start: int) -> str:
-    """From an @ to the brace that closes it."""
+    """The text from an @ to the closing brace of its entry."""
     depth = 0
     for i in range(start, len(text)):
         depth += {"{": 1, "}": -1}.get(text[i], 0)

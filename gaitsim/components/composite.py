@@ -1,4 +1,4 @@
-"""A composite file: other components assembled behind a mask."""
+"""Composite files: several components that are used as one, with parameters, ports and frames of their own."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _FIELDS = ("unit", "default", "doc", "source", "bounds")
 
 @dataclass(frozen=True, eq=False)
 class Composite:
-    """One YAML component file; ports and frames name what they stand for inside."""
+    """One YAML component file. Its ports and frames name ports and frames of its inner parts."""
 
     reference: str
     path: Path
@@ -50,11 +50,11 @@ class Composite:
 
     @property
     def words(self) -> list[str]:
-        """What an entry of a spec may say to this part."""
+        """The keys that an entry of a spec may have for this component."""
         return [*self.parameters, *self.inputs, *self.attachments, *self.parts.entries]
 
     def mark(self, section: str, name: str) -> Mark:
-        """Where a name of a section is written."""
+        """The place of a name in a section."""
         inside = self.document.entries.get(section)
         return inside.keys.get(name, inside.mark) if isinstance(inside, MappingNode) else self.document.mark
 
@@ -63,10 +63,16 @@ ComponentFile = Primitive | Composite
 
 
 def load_composite(reference: str, path: Path, shown: str, text: str) -> Composite:
-    """The composite that a text holds; `path` is where it lies, and `shown` how errors name that.
+    """Load a composite.
+
+    Args:
+        reference: Kind and name, such as "muscle_group/geyer2010".
+        path: The file.
+        shown: The name of the file in messages.
+        text: The text of the file.
 
     Raises:
-        InvalidSpec: With every fault of the file's own grammar.
+        InvalidSpec: The file has faults; the error holds all of them.
     """
     faults = Faults()
     document = respelled(parse(text, shown), _SECTIONS, "a composite has no section", faults)
@@ -96,7 +102,7 @@ def load_composite(reference: str, path: Path, shown: str, text: str) -> Composi
 
 
 def declared_parameters(section: MappingNode, faults: Faults) -> tuple[dict[str, Parameter], dict[str, Node]]:
-    """The parameters of a mask and the nodes of their defaults."""
+    """The declared parameters, and the nodes of their defaults."""
     parameters: dict[str, Parameter] = {}
     defaults: dict[str, Node] = {}
     for name, node in section.entries.items():
@@ -117,7 +123,7 @@ def declared_parameters(section: MappingNode, faults: Faults) -> tuple[dict[str,
 
 
 def _unit(node: MappingNode, name: str, faults: Faults) -> str:
-    """The unit of a parameter; left open after a fault, so that it is the only one."""
+    """The unit of a parameter. After a fault it is left open, so that no other fault follows from it."""
     unit = _word(node, "unit") or "1"
     try:
         return parse_unit(unit).text

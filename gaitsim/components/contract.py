@@ -1,4 +1,4 @@
-"""The contract of a kind: ports that all of its components share, so that one can replace another."""
+"""The contract of a kind: ports and parameters that all of its components have, so that they are interchangeable."""
 
 from __future__ import annotations
 
@@ -15,11 +15,13 @@ _SECTIONS = ("inputs", "outputs", "parameters", "metrics")
 
 
 def kind_faults(component: ComponentFile, contract: str, file: str, named: str) -> list[Fault]:
-    """What a component lacks of its kind's common ports and parameters.
+    """Find the common ports and parameters of its kind that a component lacks.
 
     Args:
+        component: The component.
         contract: The text of kind.yaml.
-        named: How errors name it.
+        file: The name of the component's file in messages.
+        named: The name of kind.yaml in messages.
 
     Raises:
         InvalidSpec: The contract itself breaks a rule.
@@ -40,10 +42,13 @@ def kind_faults(component: ComponentFile, contract: str, file: str, named: str) 
 
 
 def read_contract(text: str, named: str) -> dict[str, dict[str, str]]:
-    """What a kind.yaml asks for: names and units by section.
+    """Read what a kind.yaml requires.
+
+    Returns:
+        Units by section and name.
 
     Raises:
-        InvalidSpec: It breaks a rule.
+        InvalidSpec: The file has a fault.
     """
     faults = Faults()
     document = respelled(parse_document(text, named), ("about", *_SECTIONS), "a kind has no section", faults)
@@ -65,7 +70,7 @@ def read_contract(text: str, named: str) -> dict[str, dict[str, str]]:
 
 
 def _mark(component: ComponentFile, section: str, name: str, file: str) -> Mark:
-    """Where a component declares a name, or else itself."""
+    """The place where a component declares a name; the place of the component if it does not."""
     if isinstance(component, Composite):
         return component.mark(section, name)
     lines = component.text.splitlines()
@@ -73,7 +78,7 @@ def _mark(component: ComponentFile, section: str, name: str, file: str) -> Mark:
 
 
 def _offered(component: ComponentFile, section: str) -> dict[str, str]:
-    """Names and units; a composite's ports take their units from inside, so any unit fits."""
+    """Units by name. The ports of a composite have the units of inner ports, so every unit fits them."""
     if isinstance(component, Composite):
         if section == "parameters":
             return {name: p.unit for name, p in component.parameters.items()}

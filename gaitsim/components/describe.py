@@ -1,4 +1,4 @@
-"""What a component declares, as plain data: for listings, reference pages and schemas."""
+"""The declarations of a component as plain data, for listings, reference pages and schemas."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SECTIONS = (
 
 
 def described(component: ComponentFile) -> dict[str, Any]:
-    """A component's reference, file, digest, docs, and every declaration by section."""
+    """Reference, file, digest, documentation and all declarations of a component, as plain data."""
     head = {
         "use": component.reference,
         "kind": component.kind,
@@ -58,7 +58,7 @@ def _composite(component: Composite) -> dict[str, Any]:
 
 
 def _masked(component: Composite, name: str) -> dict[str, Any]:
-    """A parameter of a composite; its default is as in the file: a quantity or an expression."""
+    """A parameter of a composite. Its default is as written: a quantity or an expression."""
     node = component.defaults.get(name)
     found = plain(node) if node is not None else None
     default, source = (found.get("value"), found.get("source", "")) if isinstance(found, dict) else (found, "")

@@ -1,4 +1,4 @@
-"""Where components are found: beside the spec, given folders, its project, its lab, the shipped ones."""
+"""The search path of components: beside the spec, in given folders, in its project and lab, and the shipped library."""
 
 from __future__ import annotations
 
@@ -27,20 +27,22 @@ def is_component(path: Path) -> bool:
 
 
 def shipped_folder() -> Path:
-    """The library inside the wheel, or the checkout's own."""
+    """The library in the wheel or in the checkout."""
     package = Path(__file__).resolve().parents[1]
     inside = package / "shipped" / "library"
     return inside if inside.is_dir() else package.parent / "library"
 
 
 def shipped_specs() -> dict[str, Path]:
-    """The specs inside the wheel, or the checkout's own, by name; tuned values are not among them."""
+    """The specs in the wheel or in the checkout, by name, without tuned values."""
     folder = shipped_folder().parent / "specs"
     return {path.stem: path for path in sorted(folder.glob("*.yaml")) if not path.stem.endswith(".tuned")}
 
 
 def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path, ...]:
-    """The search path for a spec, nearest first; of folders above it, a marked project and a marked lab."""
+    """The search path of a spec, nearest first. Of the folders above it, only a marked project and a marked lab
+    count.
+    """
     beside = (spec or Path.cwd() / "x").absolute().parent
     project, lab = project_of(beside), lab_of(beside)
     near = (lab or beside) / "library"
@@ -52,10 +54,10 @@ def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path
 
 @dataclass
 class Library:
-    """Components by reference, each loaded once.
+    """Components by reference. Each is loaded once.
 
     Attributes:
-        texts: All files of the folders, of a library that was read before; nothing is then read again.
+        texts: All files, for a library whose files were read before; no file is then read again.
     """
 
     folders: tuple[Path, ...]
@@ -65,17 +67,21 @@ class Library:
     _tables: dict[str, Table] = field(default_factory=dict)
 
     def find(self, reference: str) -> ComponentFile:
-        """The component of a reference such as muscle/geyer2003.
+        """Load a component.
+
+        Args:
+            reference: Kind and name, such as muscle/geyer2003.
 
         Raises:
-            InvalidSpec: Unknown), InvalidComponent (broken file.
+            InvalidSpec: There is no such component.
+            InvalidComponent: Its file has faults.
         """
         if reference not in self._loaded:
             self._loaded[reference] = self._load(reference)
         return self._loaded[reference]
 
     def references(self, kind: str = "*") -> list[str]:
-        """Every reference that can be used, sorted; of one kind, or of all."""
+        """All references that specs can use, or those of one kind, sorted."""
         if kind != "*" and not kind.isidentifier():
             return []
         found = {
@@ -88,18 +94,23 @@ class Library:
         return sorted(found)
 
     def path(self, reference: str) -> Path | None:
-        """The file of a reference, loaded or not."""
+        """The file of a component; None if there is none. Nothing is loaded."""
         return next(iter(self._files(reference)), None)
 
     def file(self, reference: str) -> Path | None:
-        """The file of a component or of a table, loaded or not."""
+        """The file of a component or a table; None if there is none. Nothing is loaded."""
         return next(iter(self._files(reference, (*_SUFFIXES, ".csv"))), None)
 
     def version(self, reference: str) -> str | None:
-        """The digest of a component or a table, told from its text, which is not run; None if there is none.
+        """The digest of a component or a table.
+
+        It is computed from the text, without running it.
+
+        Returns:
+            The digest; None if there is no such component or table.
 
         Raises:
-            InvalidSpec: The spec breaks a rule.
+            InvalidSpec: The file cannot be read.
         """
         path = self.file(reference)
         if path is None:
@@ -108,20 +119,23 @@ class Library:
         return digest_of(whole(text, self.shared(path.parent.name, text) if path.suffix == ".py" else ()))
 
     def serves(self, reference: str) -> str:
-        """Which library a loaded component comes from: shipped, lab, project, result, or a folder."""
+        """The library that a loaded component comes from: shipped, lab, project, result, or a folder."""
         path = self.find(reference).path
         word = serves(path.parents[1], shipped_folder())
         return shown(path.parents[1]) if word == str(path.parents[1]) else word
 
     def used(self) -> dict[str, ComponentFile]:
-        """What has been loaded, by reference."""
+        """The components that were loaded, by reference."""
         return dict(sorted(self._loaded.items()))
 
     def table(self, reference: str) -> Table:
-        """The table of recorded curves of a reference such as norms/fukuchi2018_walking.
+        """Read a table of recorded curves.
+
+        Args:
+            reference: Folder and name, such as norms/fukuchi2018_walking.
 
         Raises:
-            InvalidSpec: The spec breaks a rule.
+            InvalidSpec: There is no such table, or it has faults.
         """
         if reference not in self._tables:
             tables = (p for folder in reversed(self.folders) for p in self._matching(folder, "*", ".csv"))
@@ -133,23 +147,27 @@ class Library:
         return self._tables[reference]
 
     def used_tables(self) -> dict[str, Table]:
-        """The tables that have been read, by reference."""
+        """The tables that were read, by reference."""
         return dict(sorted(self._tables.items()))
 
     def contract(self, kind: str) -> tuple[Path, str] | None:
-        """The contract of a kind, if there is one: its file and what that says.
+        """The contract of a kind: the file and its text; None if the kind has none.
 
         Raises:
-            InvalidSpec: The spec breaks a rule.
+            InvalidSpec: The file cannot be read.
         """
         path = next((f / kind / KIND for f in self.folders if self._has(f / kind / KIND)), None)
         return (path, self._text(path, "contract")) if path else None
 
     def shared(self, kind: str, text: str) -> list[Shared]:
-        """The files of a kind that the text of a component imports from, as far as there are any.
+        """The shared files that a component imports from, as far as they exist.
+
+        Args:
+            kind: The kind of the component.
+            text: The text of the component.
 
         Raises:
-            InvalidSpec: The spec breaks a rule.
+            InvalidSpec: A file cannot be read.
         """
         found = []
         for name in imported_names(text):
@@ -194,7 +212,7 @@ class Library:
         return path.is_file() if self.texts is None else path in self.texts
 
     def _text(self, path: Path, what: str) -> str:
-        """What a file says; of one of another kind, which a link may lead to, no word is ever repeated."""
+        """The text of a file. A link may lead to a file of another type; messages never quote that."""
         if self.texts is not None:
             return self.texts[path]
         real = path.resolve()
@@ -204,7 +222,7 @@ class Library:
         return text_of(path, shown(path), what)
 
     def _matching(self, folder: Path, kind: str, suffix: str) -> list[Path]:
-        """The files of a kind, or of all kinds (*), with a suffix."""
+        """The files with a suffix, of one kind or of all kinds (*)."""
         if self.texts is None:
             return sorted(folder.glob(f"{kind}/*{suffix}"))
         return sorted(
@@ -214,11 +232,11 @@ class Library:
         )
 
     def kinds(self) -> set[str]:
-        """Every kind that has a component."""
+        """All kinds that have a component."""
         return {reference.split("/")[0] for reference in self.references()}
 
     def unknown(self, reference: str) -> str:
-        """What is said of a reference that names no component."""
+        """The message for a reference that names no component."""
         kind, slash, name = reference.partition("/")
         if not slash:
             twins = [known for known in self.references() if known.endswith(f"/{reference}")]
@@ -232,7 +250,7 @@ class Library:
 
 
 def shown(path: Path) -> str:
-    """A path as errors show it: relative where that is shorter."""
+    """A path as messages show it: relative if that is shorter."""
     try:
         return str(path.absolute().relative_to(Path.cwd()))
     except ValueError:
@@ -240,5 +258,5 @@ def shown(path: Path) -> str:
 
 
 def at(mark: Mark, address: str, error: GaitsimError) -> list[Fault]:
-    """Faults without a place of their own, moved to where the spec asks for the component."""
+    """Faults of an error. Those without a place get the place where the spec uses the component."""
     return [f if f.mark else Fault(f.message, mark, address) for f in error.faults]

@@ -1,7 +1,8 @@
-"""Mathematics as native code does it: out of the domain gives nan or inf, never an exception.
+"""Mathematical functions that behave like native code: outside of their domain they return nan or inf instead of
+raising.
 
-Plain Python raises on sqrt(-1) and exp(800). Normal mode must see what rapid mode sees, so
-component files get these functions in the place of `math` when they run as Python.
+Plain Python raises an exception for sqrt(-1) and exp(800). Component files get these functions instead of `math` when
+they run as Python, so that normal mode and rapid mode agree.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ _FLOAT = np.float64
 
 
 def ieee_math() -> SimpleNamespace:
-    """The names of `math`, each total over the floats."""
+    """The names of `math`, each defined for all floats."""
     names = {name: getattr(math, name) for name in dir(math) if not name.startswith("_")}
     return SimpleNamespace(
         **{name: _total(value, _out_of_range(name)) if callable(value) else value for name, value in names.items()}

@@ -1,4 +1,4 @@
-"""From a component file to a Primitive: checked, executed, audited."""
+"""Loading component files: a file is checked, executed and audited."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ FUNCTIONS = ("start", "output", "update", "reset", "finish", "build")
 
 
 def digest_of(text: str) -> str:
-    """The version of a component: the digest of its content."""
+    """The digest of a text; for a component it is the version."""
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def as_lines(text: str) -> str:
-    """A text with every line ended by a newline, as Python reads files."""
+    r"""A text with "\n" at the end of each line, as Python reads files."""
     return io.StringIO(text, newline=None).read()
 
 
@@ -65,7 +65,7 @@ def load_primitive(reference: str, path: Path, shown: str, text: str, shared: Se
 
 
 def _sound_trees(text: str, tree: ast.Module, shown: str, shared: Sequence[Shared]) -> list[ast.Module]:
-    """The syntax trees of the shared files, which define all that the component imports.
+    """The syntax trees of the shared files. All imports of the component must be defined in them.
 
     Raises:
         InvalidComponent: A component file breaks the contract.
@@ -89,7 +89,7 @@ def _faults(
     shared: Sequence[Shared],
     others: Sequence[ast.Module],
 ) -> Sequence[Fault]:
-    """What is wrong in a file that Python could run: the first kind of mistakes that there is."""
+    """The faults of a file that Python could execute. Later checks run only if earlier ones found nothing."""
     from gaitsim.components.checks.audit import audit
 
     lines = text.splitlines()
@@ -101,7 +101,17 @@ def _faults(
 
 
 def execute(text: str, file: str, mathematics: Any, shared: Sequence[Shared] = ()) -> dict[str, Any]:
-    """The namespace of a component file and of those that it imports from, with `math` replaced."""
+    """Execute a component file and the shared files that it imports from.
+
+    Args:
+        text: The text of the component.
+        file: Its name in messages.
+        mathematics: The object that replaces `math`.
+        shared: The shared files.
+
+    Returns:
+        The namespace of the component file.
+    """
     spaces = {other.name: execute(other.text, other.shown, mathematics) for other in shared}
     namespace: dict[str, Any] = {"__name__": "component", "__builtins__": builtins_with(spaces)}
     try:
@@ -117,7 +127,7 @@ def execute(text: str, file: str, mathematics: Any, shared: Sequence[Shared] = (
 
 
 def component_class(namespace: dict[str, Any]) -> type[Component]:
-    """The one component that a file holds."""
+    """The component class in the namespace of a file."""
     found = [
         value
         for value in namespace.values()
@@ -128,13 +138,13 @@ def component_class(namespace: dict[str, Any]) -> type[Component]:
 
 
 def function_of(cls: type[Component], name: str) -> Callable[..., Any]:
-    """A component's function, free of its class."""
+    """A function of a component, without its class."""
     function: Callable[..., Any] = vars(cls)[name].__func__
     return function
 
 
 def raised(component: Primitive, function: str, address: str, error: Exception) -> Fault:
-    """What a component's function raised, at the line where it did."""
+    """The fault for an exception that a component's function raised, at the line where it did."""
     said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     hint = "" if said.endswith("?") else "; mend this line."
     if isinstance(error, AttributeError) and error.name and error.obj is not None:
@@ -155,7 +165,7 @@ def _mark_of(error: Exception, text: str, file: str) -> Mark:
 
 
 def _part_faults(cls: type[Component], marks: Mapping[str, Mark]) -> list[Fault]:
-    """Names that are taken, and wiring of inner parts that names ports this component does not have."""
+    """Faults of reserved names, and of connections with inner parts that name unknown ports."""
     inputs = [name for name, d in cls.declarations.items() if isinstance(d, Input)]
     outputs = [name for name, d in cls.declarations.items() if isinstance(d, Output)]
     parameters = {name: d for name, d in cls.declarations.items() if isinstance(d, Parameter)}

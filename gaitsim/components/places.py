@@ -1,4 +1,4 @@
-"""Which folders make up a lab: its projects and its library, told by the files that mark them."""
+"""Labs and projects, which are marked by the files lab.yaml and project.yaml."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ _RESULT = "manifest.json"
 
 
 def lab_of(place: Path) -> Path | None:
-    """The lab that a file or folder belongs to: the nearest folder above it that is marked as one."""
+    """The lab of a file or folder: the nearest marked folder above it; None if there is none."""
     return _marked(place, LAB)
 
 
 def project_of(place: Path) -> Path | None:
-    """The project that a file or folder belongs to, within its lab."""
+    """The project of a file or folder, within its lab; None if there is none."""
     return _marked(place, PROJECT, LAB)
 
 
 def _marked(place: Path, marker: str, end: str = "") -> Path | None:
-    """The nearest of a place and the folders above it that holds a marker, up to the one that holds `end`."""
+    """The nearest folder above a place that holds a marker. The search ends at the folder that holds `end`."""
     whole = place.absolute()
     for folder in (whole, *whole.parents):
         if (folder / marker).is_file():
@@ -31,7 +31,7 @@ def _marked(place: Path, marker: str, end: str = "") -> Path | None:
 
 
 def serves(folder: Path, shipped: Path) -> str:
-    """What a folder of components is called: shipped, lab, project, result, or its path.
+    """The name of a component folder: shipped, lab, project, result, or its path.
 
     Args:
         folder: One of the folders of a library.

@@ -1,4 +1,4 @@
-"""A component file once it is loaded: declarations, functions, and who depends on what."""
+"""A loaded component file: declarations, functions, and the inputs that its outputs depend on."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ D = TypeVar("D")
 
 @dataclass(frozen=True, eq=False)
 class Primitive:
-    """One Python component file, and the files of its kind that it imports from.
+    """One Python component file.
 
     Attributes:
-        digest: Of the component's text and of those that it imports from.
+        digest: The digest of its text and of the shared files that it imports from.
     """
 
     reference: str
@@ -36,7 +36,7 @@ class Primitive:
     shared: tuple[Shared, ...] = ()
 
     def declared(self, kind: type[D]) -> dict[str, D]:
-        """The declarations of one kind, in the order of the file."""
+        """The declarations of one class, in the order of the file."""
         return {n: d for n, d in self.cls.declarations.items() if isinstance(d, kind)}
 
     @cached_property
@@ -97,12 +97,12 @@ class Primitive:
 
     @property
     def largest_step(self) -> float:
-        """The largest step in seconds at which it is right; infinite if none was declared."""
+        """The largest time step in seconds at which it is accurate; infinite if none was declared."""
         return min((scaled(d.value, parse_unit(d.unit).factor) for d in self.step_limits.values()), default=math.inf)
 
     @property
     def code(self) -> str:
-        """All text that the component is made of: that of shared files, then its own."""
+        """The text of the shared files followed by that of the component."""
         return whole(self.text, self.shared)
 
     @property
@@ -115,6 +115,6 @@ class Primitive:
 
     @property
     def words(self) -> list[str]:
-        """What an entry of a spec may say to this part."""
+        """The keys that an entry of a spec may have for this component."""
         said = c.Parameter | c.Input | c.Link | c.Attachment | c.Points | c.Series | c.Option | c.Part
         return list(self.declared(said))  # type: ignore[arg-type]

@@ -1,4 +1,4 @@
-"""What is wrong with a component as a part of a library: everything at once, with places."""
+"""All faults of a component as a part of a library, with their places."""
 
 from __future__ import annotations
 
@@ -21,7 +21,12 @@ _DOCUMENTED = Parameter | Input | Output | State | Metric | Attachment | Frame |
 
 
 def review(reference: str, library: Library) -> list[Fault]:
-    """Every fault of a component: names, units, kind, docs, sources, bounds, lines that nothing reaches."""
+    """Find every fault of a component: names, units, kind, documentation, sources, bounds, and unreached lines.
+
+    Args:
+        reference: Kind and name.
+        library: The library that the component belongs to.
+    """
     faults = list[Fault]()
     try:
         found = library.find(reference)
@@ -35,7 +40,7 @@ def review(reference: str, library: Library) -> list[Fault]:
 
 
 def _of_broken(reference: str, library: Library) -> Iterator[Fault]:
-    """Docs and sources of a file that does not load, as far as its declarations can be read."""
+    """Faults of documentation and sources of a file that cannot be loaded, as far as its declarations can be read."""
     path = library.path(reference)
     if path is None or path.suffix != ".py":
         return
@@ -65,7 +70,7 @@ def _of_primitive(found: Primitive, keys: set[str], library: Library) -> Iterato
 def _policy(
     declarations: Mapping[str, Declaration], doc: str, marks: Mapping[str, Mark], keys: set[str]
 ) -> Iterator[Fault]:
-    """Docs, sources and bounds of declarations."""
+    """Faults of documentation, sources and bounds of declarations."""
     if not doc.strip():
         yield Fault("the component has no doc; write what it computes, and by which equation, below class.", marks[""])
     for name, one in declarations.items():
@@ -101,7 +106,7 @@ def _of_composite(found: Composite, keys: set[str]) -> Iterator[Fault]:
 
 
 def _inner(found: Composite, library: Library) -> Iterator[Fault]:
-    """Inner parts whose component is unknown or broken."""
+    """Faults of inner parts with an unknown or broken component."""
     for name, node in found.parts.entries.items():
         entry = node.entries.get("use") if isinstance(node, MappingNode) else None
         reference = str(getattr(entry, "value", ""))
@@ -116,13 +121,17 @@ def _inner(found: Composite, library: Library) -> Iterator[Fault]:
 
 
 def _sorted(faults: list[Fault]) -> list[Fault]:
-    """Each fault once, by its place."""
+    """Faults without repetition, in the order of their places."""
     unique = {(str(f.mark), f.message): f for f in faults}.values()
     return sorted(unique, key=lambda f: (f.mark.file, f.mark.line, f.mark.column) if f.mark else ("", 0, 0))
 
 
 def components_in(path: Path) -> tuple[Path, list[str]]:
-    """The folder of kinds that a path is, or is in, and the components below the path as references."""
+    """The components in a file or folder.
+
+    Returns:
+        The folder of kinds, and the references of the components below the path.
+    """
     if path.is_file():
         return path.parent.parent, [f"{path.parent.name}/{path.stem}"]
     files = [f for f in path.glob("*/*") if is_component(f)]

@@ -1,4 +1,4 @@
-"""The first lines of a component of one's own, and a test of it."""
+"""Templates for new components and their tests."""
 
 from __future__ import annotations
 
@@ -54,10 +54,19 @@ def test_its_curves_are_numbers() -> None:
 
 
 def new_component(kind: str, name: str, library: Library, like: str | None = None) -> tuple[str, str]:
-    """The file name and the text of a new component: from another one, the kind's skeleton, or its contract.
+    """Make a new component from another one, from the skeleton of its kind, or from the contract of its kind.
+
+    Args:
+        kind: The kind.
+        name: The name of the new component.
+        library: The components that exist.
+        like: The name of the component to copy, if any.
+
+    Returns:
+        The name and the text of the file.
 
     Raises:
-        Usage: The request does not fit.
+        Usage: The name cannot be used, or there is no such kind or component.
     """
     _check_name(kind, name, library)
     class_name = "".join(word.capitalize() for word in name.split("_"))
@@ -77,7 +86,7 @@ def new_component(kind: str, name: str, library: Library, like: str | None = Non
 
 
 def test_of(kind: str, name: str) -> str:
-    """A test file for a new primitive, to stand in a folder beside components/."""
+    """The text of a test for a new primitive, for a folder beside components/."""
     return _TEST.format(reference=f"{kind}/{name}")
 
 
@@ -93,7 +102,7 @@ def _check_name(kind: str, name: str, library: Library) -> None:
 
 
 def _from_contract(class_name: str, contract: Path, text: str) -> str:
-    """A component that has all that its kind asks for, and does nothing yet."""
+    """A component that declares what its kind requires and computes nothing yet."""
     asked = read_contract(text, shown(contract))
     about = str(plain(parse(text, shown(contract))).get("about", "Write here what it computes."))
     lines = [

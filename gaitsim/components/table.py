@@ -1,9 +1,9 @@
-"""Tables of recorded curves beside the components: library/norms/fukuchi2018_walking.csv and their like.
+"""Tables of recorded curves in a library, such as library/norms/fukuchi2018_walking.csv.
 
-Lines that begin with # say what it is, its source and its licence. Then come a row of names with
-units, such as `knee_flexion [deg]`, and rows of numbers; the first column says where in the cycle each
-row lies, in %. Columns are separated by commas or, as spreadsheets of many languages write them, by
-semicolons; beside semicolons a decimal comma is read as well.
+Lines that begin with # describe the table, its source and its licence. They are followed by a row of names with units,
+such as `knee_flexion [deg]`, and rows of numbers. The first column is the position in the cycle in %. Columns are
+separated by commas, or by semicolons as in the spreadsheets of many languages; with semicolons, decimal commas are read
+too.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ _ROUNDING = 1e-9
 
 @dataclass(frozen=True, eq=False)
 class Table:
-    """Columns of numbers in SI over those of the first, each with the unit that its file has."""
+    """Columns of numbers in SI over the first column, with the units of the file."""
 
     path: Path
     text: str
@@ -43,20 +43,25 @@ class Table:
 
     @property
     def recorded_by(self) -> str:
-        """What its line `source:` says: a key of the bibliography."""
+        """The key of the bibliography in its line `source:`."""
         lines = (line.partition(":") for line in self.about.splitlines())
         return next((rest.strip() for word, _, rest in lines if word == "source"), "")
 
     def curve(self, column: str, count: int) -> tuple[float, ...]:
-        """A column at `count` equal distances from 0 to 100 % of the cycle, in SI."""
+        """A column, interpolated at `count` equal distances from 0 to 100 % of the cycle, in SI."""
         return resampled(self.over, self.columns[column], count)
 
 
 def load_table(path: Path, shown: str, text: str) -> Table:
-    """The table that a text holds.
+    """Read a table.
+
+    Args:
+        path: The file.
+        shown: The name of the file in messages.
+        text: The text of the file.
 
     Raises:
-        InvalidSpec: With every row that breaks a rule.
+        InvalidSpec: Rows have faults; the error holds all of them.
     """
     text = as_lines(text)
     about, rows, separator = _split(text.removeprefix("\ufeff"), shown)
@@ -75,22 +80,26 @@ def load_table(path: Path, shown: str, text: str) -> Table:
 
 
 def resampled(over: Floats, values: Floats, count: int) -> tuple[float, ...]:
-    """A curve at `count` equal distances from 0 to 100 % of the cycle, straight between its points.
+    """Interpolate a curve linearly at equal distances from 0 to 100 % of the cycle.
+
+    A cycle begins again where it ends. Values before the first point and after the last are therefore interpolated
+    between these two.
 
     Args:
-        over: Shares of the cycle, 0 to 1, growing. A cycle begins again where it ends, so what lacks before the first
-            point or behind the last lies between these two.
+        over: Increasing positions in the cycle, 0 to 1.
+        values: One value for each.
+        count: The number of values to return.
     """
     return tuple(float(v) for v in np.interp(np.linspace(0, 1, count), over, values, period=_period(over)))
 
 
 def _period(over: Floats) -> float | None:
-    """None for points that reach from 0 to 1: the values there need not be the same."""
+    """The period of the interpolation: None if the points reach from 0 to 1, where the two values may differ."""
     return None if over[0] <= 0 and over[-1] >= 1 else 1.0
 
 
 def _split(text: str, shown: str) -> tuple[list[str], list[Row], str]:
-    """What the table says of itself, its rows as words, and what separates these; empty rows do not count."""
+    """The description of a table, its rows as words, and the separator. Empty rows are skipped."""
     about, rows, separator = list[str](), list[Row](), ","
     for n, line in enumerate(text.splitlines(), start=1):
         if line.startswith("#"):
@@ -108,7 +117,7 @@ def _heads(row: Row) -> list[tuple[str, str]]:
     """Names and units of all columns.
 
     Raises:
-        InvalidSpec: The spec breaks a rule.
+        InvalidSpec: The row of names has a fault.
     """
     place, words = row
     faults, found = Faults(), []
@@ -136,7 +145,7 @@ def _heads(row: Row) -> list[tuple[str, str]]:
 
 
 def _check_cycle(over: Floats, marks: Sequence[Mark], name: str, faults: Faults) -> None:
-    """Rows grow, lie within the cycle and cover it."""
+    """Check that rows increase, lie within the cycle and cover it."""
 
     def told(share: float) -> str:
         return f"{100 * share:.6g} %"
@@ -159,7 +168,7 @@ def _check_cycle(over: Floats, marks: Sequence[Mark], name: str, faults: Faults)
 
 
 def _numbers(row: Row, count: int, decimal_comma: bool, faults: Faults) -> Iterable[float]:
-    """The numbers of a row; a word that is none is a fault."""
+    """The numbers of a row. Each word that is not a number is a fault."""
     place, words = row
     if len(words) != count:
         faults.add(f"this row has {len(words)} numbers, and there are {count} names.", place)

@@ -1,1 +1,1 @@
-"""What a component file may say, read from its text and its declarations."""
+"""Checks of component files, by their text and their declarations."""

@@ -1,8 +1,8 @@
-"""The audit: a component's own functions, run on numbers that carry only a dimension.
+"""The audit of units: a component's functions are run on numbers that have a dimension and no value.
 
-There are no values, so a comparison may go either way, and both ways are followed. Two paths that
-reach one statement with equal dimensions in all locals go on as one: ifs in a row add paths
-rather than double them.
+A comparison of such numbers has no result, so both branches are followed. Two paths that reach the same statement with
+equal dimensions in all local variables continue as one. Consecutive ifs therefore add paths instead of multiplying
+them.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ _FIRST = {"fabs", "copysign"}
 
 @dataclass(frozen=True)
 class Audit:
-    """What an audit found: mistakes, lines that no path reached, and whether all paths were run."""
+    """The result of an audit: faults, lines that no path reached, and whether all paths were run."""
 
     faults: tuple[Fault, ...]
     unreached: tuple[int, ...]
@@ -46,7 +46,13 @@ class Audit:
 
 
 def audit(text: str, file: str, shared: Sequence[Shared] = ()) -> Audit:
-    """Run every function of a component file on dimensions, along every path; also through what it imports."""
+    """Run every function of a component file on dimensions, along every path.
+
+    Args:
+        text: The text of the component file.
+        file: The name of the file in messages.
+        shared: The shared files that it imports from; their functions are followed too.
+    """
     try:
         tree = parse(text, file)
         others = [parse_shared(other.text, other.shown) for other in shared]
@@ -86,7 +92,7 @@ def _line_and_column(fault: Fault) -> tuple[int, int]:
 
 
 def _operator(text: str, swapped: bool = False, keeps: bool = True) -> Callable[[Number, Any], Number]:
-    """An operator between quantities of one dimension."""
+    """An operator that needs operands of equal dimension."""
 
     def operator(self: Number, other: Any) -> Number:
         pair = (other, self) if swapped else (self, other)
@@ -96,7 +102,7 @@ def _operator(text: str, swapped: bool = False, keeps: bool = True) -> Callable[
 
 
 class Number:
-    """A number without a value: a dimension, and the answer if it was asked whether it is true."""
+    """A number without a value. It has a dimension, and a chosen answer when it is used as a condition."""
 
     __slots__ = ("answer", "dimension", "search")
     __hash__ = None  # type: ignore[assignment]
@@ -152,7 +158,7 @@ class Number:
 
 
 class Record:
-    """p, u, x, y or m: numbers by name, each with its declared unit."""
+    """One of p, u, x, y and m: numbers by name, each with the declared unit."""
 
     _search: _Search
     _letter: str
@@ -209,11 +215,11 @@ class Array:
 
 
 class _End(BaseException):
-    """This path need not be followed further."""
+    """Raised to leave a path that need not be followed further."""
 
 
 class _Dimensions:
-    """Each dimension once, so that equal ones are one object: Fractions are slow to hash."""
+    """Keeps one object for equal dimensions, because hashing fractions is slow."""
 
     def __init__(self) -> None:
         self._known: dict[Dimension, Dimension] = {}
@@ -238,7 +244,7 @@ class _Dimensions:
 
 
 class _Search:
-    """The paths through a function: a script of decisions is replayed, then extended."""
+    """Follows the paths through a function. Each path is a list of decisions, which is replayed and then extended."""
 
     def __init__(self, file: str, texts: Mapping[str, Sequence[str]]) -> None:
         self.file, self.texts, self.faults = file, texts, Faults()
@@ -279,7 +285,7 @@ class _Search:
         return self.taken[at]
 
     def reach(self, statement: int) -> None:
-        """Called before each statement; ends a path that would repeat what another did."""
+        """Called before each statement. Ends the path if an equal one was here before."""
         self.reached.add(statement)
         self.statements += 1
         if self.statements > _STATEMENTS:
@@ -295,7 +301,7 @@ class _Search:
         self.seen.add(key)
 
     def each(self, values: Iterable[Any]) -> Iterator[Any]:
-        """The turns of a for loop. The turn is part of what tells two paths apart."""
+        """The iterations of a for loop. Paths in different iterations are never equal."""
         depth = len(self.turns)
         self.turns.append(0)
         for turn, value in enumerate(values):
@@ -304,7 +310,7 @@ class _Search:
         del self.turns[depth:]
 
     def dimension(self, value: Any) -> Dimension | None:
-        """The dimension of an operand; None for 0, inf and nan, which fit any."""
+        """The dimension of an operand; None for 0, inf and nan, which fit every dimension."""
         if isinstance(value, Number):
             return value.dimension
         if not isinstance(value, int | float):
@@ -312,7 +318,11 @@ class _Search:
         return self.dimensions.plain if value and math.isfinite(value) else None
 
     def alike(self, text: str, *values: Any, keeps: bool = True) -> Number:
-        """A number of the dimension that all values share; a plain one unless it `keeps` that."""
+        """Check that all values have one dimension.
+
+        Returns:
+            A number of that dimension, or a plain number unless `keeps`.
+        """
         found = [d for d in map(self.dimension, values) if d is not None]
         other = next((d for d in found if d is not found[0]), None)
         if other is not None:
@@ -339,7 +349,7 @@ class _Search:
         return self.plain("a power", exponent)
 
     def plain(self, what: str, *values: Any) -> Number:
-        """A plain number, from values that must be plain."""
+        """A plain number, computed from values that must be plain."""
         for value in values:
             dimension = self.dimension(value)
             if dimension is not None and not dimension.plain:
@@ -360,12 +370,12 @@ class _Search:
         self.faults.add(message, mark)
 
     def mark(self, code: Any, instruction: int) -> Mark:
-        """Where an instruction stands in the file."""
+        """The place of an instruction in the file."""
         line, _, offset, _ = list(code.co_positions())[instruction // 2]
         return place(code.co_filename, self.texts[code.co_filename], line or 0, offset or 0)
 
     def trip(self, error: Exception) -> None:
-        """Tell of an exception, unless the component itself raised it."""
+        """Report an exception, unless the component itself raised it."""
         trace, mark, raised = error.__traceback__, Mark(self.file), False
         while trace is not None:
             code = trace.tb_frame.f_code
@@ -383,7 +393,7 @@ class _Search:
 
 
 def _shape(value: Any) -> Any:
-    """What tells two values of a local apart, as far as the audit sees them."""
+    """What distinguishes two values of a local variable for the audit."""
     if isinstance(value, Number):
         return (id(value.dimension), value.answer)
     if isinstance(value, int | float):
@@ -411,7 +421,7 @@ def _record(search: _Search, component: type[Component], letter: str) -> Record:
 
 
 def _namespace(search: _Search) -> dict[str, Any]:
-    """The globals of an audited file: its math and the builtins that look at values."""
+    """The global names of an audited file: its math, and the builtins that depend on values."""
 
     def without_value(plain: Callable[..., Any], blind: Callable[..., Any]) -> Callable[..., Any]:
         def called(*values: Any) -> Any:
@@ -469,11 +479,16 @@ def _namespace(search: _Search) -> dict[str, Any]:
 
 
 def _mark_statements(tree: ast.Module, others: Sequence[ast.Module]) -> Mapping[int, int]:
-    """Put a call before each statement of a function, and give the lines of those in the component by number.
+    """Insert a call before each statement of a function.
+
+    Functions that only build() uses are left out, because build() works on MuJoCo and not on numbers.
 
     Args:
-        others: The trees of shared files; which lines of theirs are reached depends on the component. What only build()
-            uses is left out: it works in MuJoCo, not on numbers.
+        others: The syntax trees of shared files. Their lines are not counted as unreached, because each component uses
+            a part of them.
+
+    Returns:
+        The line of each inserted call in the component, by its number.
     """
     own = class_functions(tree)
     theirs = {node.name: node for other in others for node in other.body if isinstance(node, ast.FunctionDef)}
@@ -494,7 +509,7 @@ def _mark_statements(tree: ast.Module, others: Sequence[ast.Module]) -> Mapping[
 
 
 def _mark(function: ast.FunctionDef, lines: dict[int, int]) -> None:
-    """Put a call before each statement of a function and around what each loop runs over."""
+    """Insert a call before each statement of a function, and around the iterable of each loop."""
     for node in list(ast.walk(function)):
         if isinstance(node, ast.For):
             node.iter = _call("__each__", node.iter, node.iter)
@@ -520,7 +535,7 @@ def _call(name: str, argument: ast.expr, at: ast.AST) -> ast.Call:
 
 
 def _used(node: ast.AST | None, helpers: Mapping[str, ast.FunctionDef]) -> set[str]:
-    """The helpers that a function calls, also through others."""
+    """The helpers that a function calls, directly or through others."""
     found: set[str] = set()
     todo = [node] if node is not None else []
     while todo:

@@ -1,4 +1,6 @@
-"""Remembers which component files were found sound, and what their outputs depend on: they are not checked again."""
+"""A cache of checked component files: sound files, and the inputs that their outputs depend on, are not computed
+again.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +18,14 @@ _RULES = ("component.py", "units.py", "components/*.py", "components/checks/*.py
 
 
 def sound_dependencies(text: str) -> dict[str, frozenset[str]] | None:
-    """The inputs that each output needs, of a text in which these checks have found no fault before; else None."""
+    """Look up a text that was found free of faults.
+
+    Args:
+        text: The text of the component and of its shared files.
+
+    Returns:
+        The inputs that each output needs; None if the text is not in the cache.
+    """
     known = kept("audited", _key(text))
     if known is None:
         return None
@@ -24,7 +33,7 @@ def sound_dependencies(text: str) -> dict[str, frozenset[str]] | None:
 
 
 def remember(text: str, dependencies: Mapping[str, frozenset[str]]) -> None:
-    """This text has no fault. Where nothing can be written, it is checked again."""
+    """Store that a text has no fault. If the cache cannot be written, the text is checked again next time."""
     keep("audited", _key(text), json.dumps({name: sorted(inputs) for name, inputs in dependencies.items()}).encode())
 
 
@@ -34,7 +43,7 @@ def _key(text: str) -> str:
 
 @cache
 def _rules() -> str:
-    """The digest of all that the answer depends on besides the text."""
+    """The digest of all code that decides the result of the check."""
     folder = Path(gaitsim.__file__).parent
     digest = hashlib.sha256(sys.version.encode())
     for path in sorted(path for pattern in _RULES for path in folder.glob(pattern)):

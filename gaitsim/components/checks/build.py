@@ -1,4 +1,4 @@
-"""The names of ports and frames that a component's build() hands to MuJoCo's side."""
+"""Checks of the names of ports and frames in a component's build()."""
 
 from __future__ import annotations
 
@@ -24,7 +24,11 @@ VERBS: Mapping[str, tuple[int, tuple[type, ...], str]] = {
 
 
 def build_faults(build: ast.FunctionDef, known: Mapping[str, Declaration]) -> Iterator[tuple[str, ast.AST]]:
-    """Names that are not declared as what build() takes them for, with their places."""
+    """Find names in build() that are not declared as its calls need them.
+
+    Yields:
+        The message and the place of each fault.
+    """
     for call, argument, kinds, what in _named(build):
         word = argument.value if isinstance(argument, ast.Constant) else None
         if isinstance(word, str) and not isinstance(known.get(word), kinds):
@@ -33,7 +37,7 @@ def build_faults(build: ast.FunctionDef, known: Mapping[str, Declaration]) -> It
 
 
 def placed(build: ast.FunctionDef, kind: type, known: Mapping[str, Declaration]) -> set[str] | None:
-    """What build() gives a place or a value; None if that cannot be seen, as in a loop or a helper."""
+    """The names that build() places or sets; None if they cannot be determined, as in a loop or a helper."""
     found = set()
     for _, argument, kinds, _ in _named(build):
         if kinds == (kind,):

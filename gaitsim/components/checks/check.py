@@ -1,4 +1,4 @@
-"""A component file against its own declarations, before numba or a run sees it."""
+"""Checks of a component file against its own declarations, before numba or a run uses it."""
 
 from __future__ import annotations
 
@@ -50,18 +50,18 @@ _BUILTINS |= {"breakpoint", "ValueError", "ArithmeticError", "OverflowError", "R
 
 
 def place(file: str, lines: Sequence[str], line: int, offset: int) -> Mark:
-    """The mark of a line and a byte offset in it, as the compiler counts."""
+    """The mark of a line and a byte offset, as the Python compiler counts them."""
     text = lines[line - 1] if 0 < line <= len(lines) else ""
     return Mark(file, line, len(text.encode()[:offset].decode(errors="ignore")) + 1, text)
 
 
 def class_body(tree: ast.Module) -> list[ast.stmt]:
-    """What stands in the class of a parsed component file; nothing in a shared file, which has none."""
+    """The statements in the class of a component file; none for a shared file, which has no class."""
     return next((node.body for node in tree.body if isinstance(node, ast.ClassDef)), [])
 
 
 def declaration_marks(tree: ast.Module, file: str, lines: Sequence[str]) -> dict[str, Mark]:
-    """Where each name of the class is declared; the class itself under the empty name."""
+    """The place of each declaration of the class; the place of the class itself under the empty name."""
     found: dict[str, Mark] = {}
     for node in class_body(tree):
         if isinstance(node, ast.Assign | ast.AnnAssign):
@@ -72,15 +72,19 @@ def declaration_marks(tree: ast.Module, file: str, lines: Sequence[str]) -> dict
 
 
 def class_functions(tree: ast.Module) -> dict[str, ast.FunctionDef]:
-    """The functions of the component's class by name."""
+    """The functions of the component's class, by name."""
     return {node.name: node for node in class_body(tree) if isinstance(node, ast.FunctionDef)}
 
 
 def parse(text: str, file: str) -> ast.Module:
-    """The syntax tree of a component file that holds only what such a file may hold.
+    """Parse a component file.
+
+    Args:
+        text: The text of the file.
+        file: Its name in messages.
 
     Raises:
-        InvalidComponent: A component file breaks the contract.
+        InvalidComponent: It is not Python, or holds something that component files must not hold.
     """
     lines, faults = text.split("\n"), Faults()
     tree = _python(text, file)
@@ -110,10 +114,14 @@ def parse(text: str, file: str) -> ast.Module:
 
 
 def parse_shared(text: str, file: str) -> ast.Module:
-    """The syntax tree of a file that components of a kind import from.
+    """Parse a file that components of a kind import from.
+
+    Args:
+        text: The text of the file.
+        file: Its name in messages.
 
     Raises:
-        InvalidComponent: A component file breaks the contract.
+        InvalidComponent: It is not Python, or holds something that shared files must not hold.
     """
     lines, faults = text.split("\n"), Faults()
     tree = _python(text, file)
@@ -133,7 +141,7 @@ def parse_shared(text: str, file: str) -> ast.Module:
 
 
 def _python(text: str, file: str) -> ast.Module:
-    """The syntax tree of a text.
+    """Parse a Python text.
 
     Raises:
         InvalidComponent: A component file breaks the contract.
@@ -156,9 +164,13 @@ def check_names(
     lines: Sequence[str],
     shared: Sequence[ast.Module] = (),
 ) -> list[Fault]:
-    """All mistakes of a parsed file in names, signatures, assignments and declarations.
+    """Find all faults of names, signatures, assignments and declarations in a parsed file.
 
     Args:
+        tree: The syntax tree of the component file.
+        declarations: Its declarations by name.
+        file: Its name in messages.
+        lines: Its lines.
         shared: The syntax trees of the files that it imports from.
     """
     check = _Check(tree, declarations, file, lines, used_functions(tree, shared))
@@ -220,7 +232,11 @@ class _Check:
                 self.add(message, self.places.get(name))
 
     def signature(self, name: str, function: ast.FunctionDef) -> bool:
-        """Whether a function has its name and its arguments."""
+        """Check the name and the arguments of a function.
+
+        Returns:
+            Whether both are correct.
+        """
         if name not in SIGNATURES:
             said = did_you_mean(name, SIGNATURES)
             self.add(f"{name} is not a function of a component. {said}", function)
@@ -255,7 +271,7 @@ class _Check:
                     self.add(f"{letter}.{node.attr} is assigned in {name}; {said}", node)
 
     def whole(self, function: ast.FunctionDef) -> Iterator[ast.expr]:
-        """Where a letter may stand: before a dot, and as an argument of a helper."""
+        """The places where p, u, x, y or m may stand as a whole: before a dot, and as an argument of a helper."""
         for node in ast.walk(function):
             if isinstance(node, ast.Attribute):
                 yield node.value
@@ -297,13 +313,13 @@ class _Check:
                     self.add(f"math.{node.attr} is not defined. {hint}", node)
 
     def meant(self, word: str) -> str:
-        """A hint at a declared name that lacks its letter."""
+        """A hint for a declared name that was written without its letter."""
         one = self.known.get(word)
         letter = next((at for at, kind in _LETTERS.items() if isinstance(one, kind)), "")
         return f"Did you mean {letter}.{word}?" if letter else ""
 
     def guarded(self) -> None:
-        """A function `reset` needs the output whose rise through 0 is its event."""
+        """Check that a component with a function `reset` declares the output whose rise through 0 is the event."""
         if "reset" in self.functions and not isinstance(self.known.get(GUARD), Output):
             rule = f"reset needs an output {GUARD}, whose rise through 0 is the event; declare {GUARD} = Output(...)."
             self.add(rule, self.functions["reset"])
@@ -335,7 +351,7 @@ class _Check:
 
 
 def _listed(words: Sequence[str]) -> str:
-    """Words as a sentence has them: start, update and reset."""
+    """Words as a list in a sentence: start, update and reset."""
     return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
 
 
@@ -348,7 +364,7 @@ def _hint(word: str, names: list[str], prefix: str) -> str:
 
 
 def _bound(node: ast.AST) -> Iterator[str]:
-    """The names that a statement binds: assigned, imported, defined, arguments."""
+    """The names that a statement binds: by assignment, import, definition or as arguments."""
     for inner in ast.walk(node):
         if isinstance(inner, ast.Name) and not isinstance(inner.ctx, ast.Load):
             yield inner.id
@@ -361,7 +377,7 @@ def _bound(node: ast.AST) -> Iterator[str]:
 
 
 def _written(function: ast.FunctionDef) -> Iterator[ast.Attribute]:
-    """Each attribute that a function assigns, also by an index: x.samples[i] = 0."""
+    """Each attribute that a function assigns, also by an index as in x.samples[i] = 0."""
     for node in ast.walk(function):
         if isinstance(node, ast.Attribute | ast.Subscript) and not isinstance(node.ctx, ast.Load):
             inner: ast.expr = node

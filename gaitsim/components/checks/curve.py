@@ -1,4 +1,4 @@
-"""The curves that a component declares, against the names of its file."""
+"""Checks of declared curves against the names of the component file."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _READ = Parameter | Input | State | Output
 def curve_faults(
     name: str, curve: Curve, known: Mapping[str, Declaration], functions: Mapping[str, ast.FunctionDef]
 ) -> Iterator[str]:
-    """What a curve names that the file does not have, in words."""
+    """The messages for names in a curve that the file does not have."""
     low, high = curve.span
     if not low < high:
         yield f"{name}: span {curve.span} is no range; write the lower end first."

@@ -1,4 +1,4 @@
-"""The declarations of a component file: every field of the kind that it must be."""
+"""Checks of declarations: every field must have the right type."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from gaitsim.units import UnknownUnit, known_units, parse_unit
 
 
 def unit_rule(unit: str) -> str:
-    """What is said of a text that is no unit."""
+    """The message for a text that is not a unit."""
     return f'"{unit}" is not a unit; write one made of {", ".join(known_units())}, or "1".'
 
 
@@ -100,7 +100,7 @@ _FIELDS |= {"sends": _FIELDS["reads"], "gives": _FIELDS["reads"], "optional": _F
 
 
 def field_faults(name: str, one: Declaration) -> Iterator[str]:
-    """What is wrong with the fields of one declaration, in words."""
+    """The messages for wrong fields of one declaration."""
     for field in dataclasses.fields(one):
         fits, wanted = _FIELDS[field.name]
         value = getattr(one, field.name)
@@ -129,7 +129,11 @@ def field_faults(name: str, one: Declaration) -> Iterator[str]:
 
 
 def unknown_fields(tree: ast.Module) -> Iterator[tuple[str, ast.keyword]]:
-    """Fields that a declaration does not have, with their places: read before the file is run."""
+    """Find fields that a declaration does not have, before the file is run.
+
+    Yields:
+        The message and the place of each fault.
+    """
     for node in ast.walk(tree):
         if not (isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in component.__all__):
             continue

@@ -1,4 +1,4 @@
-"""Which inputs each output needs at the same instant, read from the text of output()."""
+"""The inputs that each output needs at the same instant, read from the text of output()."""
 
 from __future__ import annotations
 
@@ -15,10 +15,13 @@ _NONE: Carried = frozenset()
 def output_dependencies(
     tree: ast.Module, declarations: Mapping[str, Declaration], shared: Sequence[ast.Module] = ()
 ) -> dict[str, Carried]:
-    """For each output the inputs from which output() computes it; a superset where in doubt.
+    """Determine the inputs from which output() computes each output.
 
-    An input counts if its value reaches the output through locals, other outputs, helpers, or a
-    condition that decides whether the output is assigned. States and parameters carry none.
+    An input counts if its value reaches the output through local variables, other outputs, helpers, or a condition that
+    decides whether the output is assigned. States and parameters carry no inputs.
+
+    Returns:
+        The inputs of each output; too many rather than too few where the text does not decide.
     """
     outputs = [name for name, one in declarations.items() if isinstance(one, Output)]
     function = class_functions(tree).get("output")
@@ -30,7 +33,7 @@ def output_dependencies(
 
 
 class _Flow:
-    """What each name carries: a union over all of its assignments, grown until it rests."""
+    """The inputs that each name carries: the union over all of its assignments, repeated until nothing changes."""
 
     def __init__(
         self,
@@ -59,7 +62,7 @@ class _Flow:
             self.block(function.body, _NONE)
 
     def read(self, *nodes: ast.AST | None) -> Carried:
-        """All that is read in expressions; u as a whole stands for every input."""
+        """The inputs that expressions read; u as a whole stands for every input."""
         found: set[str] = set()
         for node in nodes:
             if node is None:
@@ -86,7 +89,7 @@ class _Flow:
         return _NONE.union(*(self.known.get(name, _NONE) for name in names))
 
     def write(self, target: ast.AST, carried: Carried) -> None:
-        """Add to what a target carries: a name, y.name, an element, or several of them."""
+        """Add inputs to an assignment target: a name, y.name, an element, or several of them."""
         if isinstance(target, ast.Tuple | ast.List):
             for element in target.elts:
                 self.write(element, carried)
@@ -171,7 +174,7 @@ class _Flow:
         self.turned = outer
 
     def inside(self, expression: ast.expr, control: Carried) -> None:
-        """Writes within an expression: walrus, comprehensions, and helpers that may fill y."""
+        """Writes within an expression: assignment expressions, comprehensions, and helpers that may set y."""
         for node in ast.walk(expression):
             if isinstance(node, ast.NamedExpr):
                 self.write(node.target, control | self.read(expression))

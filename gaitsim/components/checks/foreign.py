@@ -1,4 +1,4 @@
-"""What a component file may not hold: imports, names and attributes that lead to files or to other code."""
+"""Checks against imports, names and attributes that lead to files or to other code."""
 
 from __future__ import annotations
 
@@ -16,7 +16,11 @@ _INSIDES |= {"tofile", "dump", "with_traceback", "mro"}
 
 
 def foreign(tree: ast.Module) -> Iterator[tuple[str, ast.AST]]:
-    """Each unknown field of a declaration, each import and each name that may not be used, in words."""
+    """Find unknown fields of declarations, and imports and names that component files must not use.
+
+    Yields:
+        The message and the place of each fault.
+    """
     yield from unknown_fields(tree)
     for node in ast.walk(tree):
         if isinstance(node, ast.Import | ast.ImportFrom) and not _may_import(node):
@@ -30,7 +34,7 @@ def foreign(tree: ast.Module) -> Iterator[tuple[str, ast.AST]]:
 
 
 def _forbidden(node: ast.AST) -> str:
-    """What a node names that a component file has no use for: ways to files, and to what Python is made of."""
+    """The forbidden name in a node: one that leads to files or to the internals of Python; empty if there is none."""
     if isinstance(node, ast.Name) and node.id in FORBIDDEN:
         return node.id
     if isinstance(node, ast.Attribute) and node.attr in _INSIDES:

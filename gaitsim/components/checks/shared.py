@@ -1,7 +1,7 @@
-"""What the components of a kind share: declarations and pure functions, in files whose names begin with `_`.
+"""Files that the components of a kind share: declarations and pure functions, with names that begin with `_`.
 
-A component of the kind says `from ._hill import PATH, look_ahead` and has then what
-`_hill.py`, in the folder of its kind, defines. Such a file holds no component, and no import of another one.
+A component that says `from ._hill import PATH, look_ahead` uses the definitions of `_hill.py` in the folder of its
+kind. A shared file holds no component and imports no other shared file.
 """
 
 from __future__ import annotations
@@ -22,7 +22,11 @@ _IMPORT = re.compile(r"^from \.(_\w+) import ", re.MULTILINE)
 
 @dataclass(frozen=True)
 class Shared:
-    """A file that components of a kind import from; `shown` is how errors name it."""
+    """A file that components of a kind import from.
+
+    Attributes:
+        shown: The name of the file in messages.
+    """
 
     name: str
     path: Path
@@ -31,24 +35,30 @@ class Shared:
 
 
 def imported_names(text: str) -> list[str]:
-    """The shared files that the text of a component imports from, each once."""
+    """The shared files that the text of a component imports from, without repetition."""
     return list(dict.fromkeys(_IMPORT.findall(text)))
 
 
 def whole(text: str, shared: Sequence[Shared]) -> str:
-    """The texts of shared files and of a component as one; that of the component alone if it imports none."""
+    """The texts of the shared files followed by the text of the component. Its digest is the version of the
+    component.
+    """
     return "".join(f"# {file.name}.py\n{file.text}" for file in shared) + text
 
 
 def imports_shared(node: ast.AST) -> bool:
-    """Whether a statement imports from a file that a kind shares."""
+    """Whether a statement imports from a shared file."""
     return isinstance(node, ast.ImportFrom) and node.level == 1 and re.fullmatch(r"_\w+", node.module or "") is not None
 
 
 def import_faults(
     tree: ast.Module, shared: Sequence[Shared], trees: Sequence[ast.Module]
 ) -> Iterator[tuple[str, ast.ImportFrom]]:
-    """What a component imports that no shared file defines, in words, with the statement that does."""
+    """Find names that a component imports and no shared file defines.
+
+    Yields:
+        The message of each fault, and the import.
+    """
     defined = {file.name: set(definitions(tree)) for file, tree in zip(shared, trees, strict=True)}
     for node in tree.body:
         if not isinstance(node, ast.ImportFrom) or not imports_shared(node):
@@ -72,7 +82,7 @@ def definitions(tree: ast.Module) -> Iterator[str]:
 
 
 def used_functions(tree: ast.Module, trees: Sequence[ast.Module]) -> dict[str, ast.FunctionDef]:
-    """The functions that a component file can call, by name: its own and those that it imports."""
+    """The functions that a component file can call: its own and the imported ones."""
     wanted = {alias.name for node in tree.body if imports_shared(node) for alias in node.names}  # type: ignore[attr-defined]
     theirs = [node for other in trees for node in other.body if isinstance(node, ast.FunctionDef)]
     own = [node for node in tree.body if isinstance(node, ast.FunctionDef)]
@@ -80,10 +90,10 @@ def used_functions(tree: ast.Module, trees: Sequence[ast.Module]) -> dict[str, a
 
 
 def builtins_with(spaces: Mapping[str, Mapping[str, Any]], known: Mapping[str, Any] | None = None) -> dict[str, Any]:
-    """The builtins of a component file in which `from ._name import ...` gives names of executed shared files.
+    """The builtins of a component file, in which `from ._name import ...` finds the shared files.
 
     Args:
-        spaces: The namespaces of the shared files by name.
+        spaces: The namespaces of the shared files, by name.
         known: The other builtins; Python's by default.
     """
     own = vars(builtins) if known is None else known

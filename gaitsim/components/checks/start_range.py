@@ -1,4 +1,4 @@
-"""Where signals are when a run starts: the ranges that a component declares of inputs, outputs and states."""
+"""The usual and possible ranges of signals at the start of a run, as declared for inputs, outputs and states."""
 
 from __future__ import annotations
 
@@ -14,12 +14,21 @@ Units = tuple[tuple[str, str], ...]  # of parameters, by name
 
 
 def units_of(known: Mapping[str, Declaration]) -> Units:
-    """The parameters that ends may name, with their units."""
+    """The parameters that the ends of ranges may name, with their units."""
     return tuple((name, one.unit) for name, one in known.items() if isinstance(one, Parameter))
 
 
 def end_in_si(end: End, unit: str, parameters: Units, values: Mapping[str, float]) -> float:
-    """One end of a range in SI; `values` are those of parameters in SI.
+    """Compute one end of a range.
+
+    Args:
+        end: A number in the unit, or an expression.
+        unit: The unit of the signal.
+        parameters: The parameters that the expression may name, with their units.
+        values: Parameters in SI by name.
+
+    Returns:
+        The end in SI.
 
     Raises:
         ArithmeticError: The expression has no value.
@@ -31,7 +40,7 @@ def end_in_si(end: End, unit: str, parameters: Units, values: Mapping[str, float
 
 
 def range_faults(name: str, one: Ranged, known: Mapping[str, Declaration]) -> Iterator[str]:
-    """What is wrong with the ranges of a signal, in words."""
+    """The messages for wrong ranges of a signal."""
     for field, ends in (("usual", one.usual), ("possible", one.possible)):
         if ends is None:
             continue
