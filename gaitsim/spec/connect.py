@@ -1,4 +1,4 @@
-"""From wires as written to connections between ports of primitives; every input accounted for."""
+"""Connections between ports of primitives, made from connections as written; every input is checked."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gaitsim.units import parse_unit
 
 @dataclass
 class Wiring:
-    """Follows names through the masks of composites."""
+    """Follows port names through composites to ports of primitives."""
 
     expansion: Expansion
     _constants: dict[str, int] = field(default_factory=dict)
@@ -27,7 +27,7 @@ class Wiring:
         self._read_constants()
 
     def connections(self) -> tuple[Connection, ...]:
-        """Every connection, each between two primitives."""
+        """All connections, each from a primitive to a primitive."""
         made: list[Connection] = []
         for wire in self.expansion.wires:
             sender = self._output(wire)
@@ -38,7 +38,7 @@ class Wiring:
         return tuple(made)
 
     def completed(self, part: Part) -> Part:
-        """The part with its constants, and its attachments and points followed to primitives."""
+        """The part with its constants, and with its attachments and points on primitives."""
         ports = {name: f"{part.address}.{name}" for name in part.type.inputs}
         constants = {name: self._constants[port] for name, port in ports.items() if port in self._constants}
         attachments = {
@@ -50,7 +50,15 @@ class Wiring:
         return replace(part, constants=constants, attachments=attachments, points=points, places=places)
 
     def initial(self, text: str, mark: Mark) -> tuple[str, str] | None:
-        """The output or state that an initial value is for, and its unit; None after a fault."""
+        """Find the output or state that an initial value belongs to.
+
+        Args:
+            text: The address as written.
+            mark: Its place.
+
+        Returns:
+            The address and the unit; None after a fault.
+        """
         address = self._follow(text, self.expansion.outputs)
         owner, _, name = address.rpartition(".")
         part = self.parts.get(owner)
@@ -66,14 +74,14 @@ class Wiring:
         return None
 
     def _followed(self, points: Mapping[str, Sequence[Place]]) -> dict[str, list[Place]]:
-        """Points by name, each on a primitive's frame or body."""
+        """Points by name, each on the frame or the body of a primitive."""
         return {
             name: [Place(self._body_or_frame(place.frame), place.at) for place in places]
             for name, places in points.items()
         }
 
     def _follow(self, name: str, aliases: Mapping[str, str]) -> str:
-        """Through the masks: leg.load -> leg.foot.load -> leg.foot.contact.force."""
+        """Follow a name through composites: leg.load -> leg.foot.load -> leg.foot.contact.force."""
         seen = {name}
         while aliases.get(name, name) not in seen:
             name = aliases[name]
@@ -130,7 +138,7 @@ class Wiring:
         return Connection(sender, target, wire.delay, initial, wire.made_by, wire.mark)
 
     def _check_inputs(self, made: list[Connection]) -> None:
-        """A single-valued input has one sender; one without default has at least one."""
+        """Check that an input has at most one sender unless it sums, and at least one unless it has a default."""
         senders: dict[str, list[Connection]] = {}
         for connection in made:
             senders.setdefault(connection.target, []).append(connection)
@@ -179,7 +187,7 @@ class Wiring:
         return WORLD
 
     def _body_or_frame(self, text: str) -> str:
-        """A frame, or the body of a part: of a composite's first frame."""
+        """The frame of a name, or the body of a part; for a composite, the body of its first frame."""
         part = self.parts.get(text)
         if part is not None and part.type.frames:
             return text

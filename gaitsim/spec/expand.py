@@ -1,4 +1,6 @@
-"""From entries to parts: composites are opened, sides doubled, masks evaluated."""
+"""Expansion of entries to parts: composites are replaced by their inner parts, sides are doubled, parameters are
+evaluated.
+"""
 
 from __future__ import annotations
 
@@ -30,7 +32,7 @@ _STRUCTURE = ("use", "sides", "to")
 
 @dataclass
 class Expansion:
-    """What opening a spec yields; ports and frames keep the names they were given."""
+    """The result of expanding a spec. Ports and frames keep their names."""
 
     library: Library
     faults: Faults
@@ -54,11 +56,11 @@ class Expansion:
         return self.ports.wires
 
     def is_broken(self, name: str) -> bool:
-        """Whether a name lies in what could not be opened; that has been said already."""
+        """Whether a name belongs to an entry that could not be expanded. Its fault was reported already."""
         return any(name == part or name.startswith(f"{part}.") for part in self.broken)
 
     def announce(self, section: MappingNode, scope: Scope) -> None:
-        """Make the names of a section known, that others may send to them before they are opened."""
+        """Register the names of a section before its entries are expanded, so that others can send to them."""
         for name, node in section.entries.items():
             both = sides(node)
             names = tuple(f"{name}_{s}" for s in both) or (name,)
@@ -67,7 +69,14 @@ class Expansion:
                 scope.sided[name] = names
 
     def section(self, section: MappingNode, scope: Scope, side: str = "", measure: bool = False) -> None:
-        """Open every entry of `parts:` or `measures:`."""
+        """Expand every entry of `parts:` or `measures:`.
+
+        Args:
+            section: The section.
+            scope: The scope of its names.
+            side: The side of all entries, l or r; empty for none.
+            measure: Whether the entries are measures.
+        """
         self.announce(section, scope)
         sided = {name: sides(node, self.faults, name) for name, node in section.entries.items()}
         overrides = {f"{name}_{s}" for name, both in sided.items() for s in both}
@@ -99,11 +108,11 @@ class Expansion:
                 self._entry(node, where)
 
     def lone_entry(self, name: str, node: MappingNode, mark: Mark, scope: Scope) -> None:
-        """Open one entry that its surroundings do not know by its name."""
+        """Expand one entry whose name is unknown to other entries."""
         self._entry(node, Where(scope.below(name), _join(scope.logical, name), scope, mark))
 
     def finish(self) -> None:
-        """What needs every part to be known: points with a `%` of a segment's length."""
+        """Read what needs all parts: points with a `%` of the length of a segment."""
         self.points.read_all()
 
     def _entry(self, node: MappingNode, where: Where) -> None:
@@ -119,7 +128,9 @@ class Expansion:
             self._primitive(found, node, where)
 
     def _instead(self, node: MappingNode, where: Where) -> MappingNode:
-        """The entry with what `use_for` says of its kind; what a swapped-in part is made of stays as it is."""
+        """The entry with the component that `use_for` gives for its kind. Inner parts of a component from `use_for`
+        are not changed again.
+        """
         use = node.entries.get("use")
         kind = str(use.value).split("/")[0] if isinstance(use, ScalarNode) else ""
         instead = self.use_for.get(kind)
@@ -150,7 +161,7 @@ class Expansion:
     def _known_words(
         self, node: MappingNode, found: ComponentFile, where: Where, swapped: frozenset[str]
     ) -> MappingNode:
-        """The entry without what a swapped-in part lacks; other unknown words are faults."""
+        """The entry without the keys that a component from `use:` lacks; other unknown keys are faults."""
         dropped = [word for word in node.entries if word in swapped and word not in (*found.words, *_STRUCTURE)]
         self.notices += [f"{where.address}: {found.reference} has no {word}; dropped" for word in dropped]
         self.dropped |= {node.keys[word] for word in dropped}
@@ -189,7 +200,7 @@ class Expansion:
         self._exposed(found, address)
 
     def _exposed(self, found: Composite, address: str) -> None:
-        """Every name that a composite shows outside stands for something inside."""
+        """Check that every port and frame of a composite names something inside."""
         self._shown("frame", [*found.frames.items()], self.frames, found, address)
         self._shown("output", [*found.outputs.items()], self.outputs, found, address)
         inputs = [(name, target) for name, targets in found.inputs.items() for target in targets]
@@ -246,7 +257,7 @@ class Expansion:
     def _fastened(
         self, names: Iterable[str], node: MappingNode, where: Where
     ) -> tuple[dict[str, str], dict[str, list[Place]]]:
-        """What an entry is fastened to: frames, and places beside a frame."""
+        """The frames to which an entry is fastened, and places beside frames."""
         places = {}
         for name in names:
             given = node.entries.get(name)
@@ -273,7 +284,7 @@ class Expansion:
         return made
 
     def _inner_parts(self, found: Primitive, node: MappingNode, where: Where, names: Names) -> None:
-        """The parts inside a primitive, such as a muscle's path, and their wiring."""
+        """Expand the inner parts of a primitive, such as the path of a muscle, and connect them."""
         for name, slot in found.parts.items():
             if slot.optional and name not in node.entries:
                 continue
@@ -304,7 +315,7 @@ class Expansion:
                     self.inputs[f"{where.address}.{mine}"].append(f"{inner.address}.{theirs}")
 
     def _slot_fault(self, name: str, slot: InnerPart, own: Node, where: Where) -> tuple[str, Mark]:
-        """What is wrong with the entry of an inner part, and where; empty if it can be opened."""
+        """The fault of the entry of an inner part, and its place; empty if the entry can be expanded."""
         sample = f"{name}: {{use: {next(iter(self.library.references(slot.kind)), f'{slot.kind}/...')}, ...}}"
         if not isinstance(own, MappingNode):
             return f"{name} is a part of its own; write {sample}.", own.mark
@@ -329,7 +340,7 @@ def _join(*words: str) -> str:
 
 
 def sides(node: Node, faults: Faults | None = None, name: str = "") -> tuple[str, ...]:
-    """The sides that an entry is made for; none if it has no `sides:`."""
+    """The sides for which an entry is made; none without `sides:`."""
     given = node.entries.get("sides") if isinstance(node, MappingNode) else None
     if given is None:
         return ()

@@ -1,4 +1,4 @@
-"""One spec from several: a parent by `extends:`, and single settings from the command line."""
+"""Inheritance by `extends:`, and single settings from the command line."""
 
 from __future__ import annotations
 
@@ -23,9 +23,12 @@ _SPEC = re.compile(
 
 
 def merged(base: MappingNode, over: MappingNode) -> MappingNode:
-    """The base with another document laid over it; null removes a key.
+    """Merge two documents.
 
-    A null that finds nothing to remove stays: it may mean a part of a composite further down.
+    Args:
+        base: The parent.
+        over: The document that overrides it. A null removes a key; a null without such a key stays, because it may
+            refer to a part of a composite.
     """
     entries, keys = dict(base.entries), dict(base.keys)
     for key, node in over.entries.items():
@@ -34,7 +37,7 @@ def merged(base: MappingNode, over: MappingNode) -> MappingNode:
 
 
 def _swapped(base: MappingNode, over: MappingNode) -> frozenset[str]:
-    """The words that a part keeps from another component, and may have to drop."""
+    """The keys that a part inherits from an entry with another component; the new component may lack them."""
     old, new = base.entries.get("use"), over.entries.get("use")
     if old is None or new is None or plain(old) == plain(new):
         return base.swapped | over.swapped
@@ -42,7 +45,16 @@ def _swapped(base: MappingNode, over: MappingNode) -> frozenset[str]:
 
 
 def with_parents(path: Path, shown: str, read: Callable[[Path, str], MappingNode] = document.read) -> MappingNode:
-    """The document in a file, laid over the parents that its `extends:` names."""
+    """Read a document and merge it with the parents that `extends:` names.
+
+    Args:
+        path: The file.
+        shown: Its name in messages.
+        read: Reads a document from a file, given its name in messages.
+
+    Raises:
+        InvalidSpec: A file cannot be read, or specs extend each other in a ring.
+    """
     documents = [read(path, shown)]
     names, seen = [shown], [os.path.realpath(path)]
     while "extends" in documents[-1].entries:
@@ -67,14 +79,25 @@ def with_parents(path: Path, shown: str, read: Callable[[Path, str], MappingNode
 
 
 def parents(path: Path) -> Iterator[Path]:
-    """The files that a spec extends, the nearest first; of a spec that `with_parents` has read."""
+    """The files that a spec extends, nearest first. The spec must have been read by `with_parents` before."""
     while isinstance(parent := document.read(path).entries.get("extends"), ScalarNode):
         path = path.parent / str(parent.value)
         yield path
 
 
 def split_setting(text: str, origin: str = "--set") -> tuple[str, str]:
-    """The address and the value of a setting such as `leg.knee.stiffness=5`."""
+    """Split a setting such as `leg.knee.stiffness=5`.
+
+    Args:
+        text: The setting.
+        origin: The option that it comes from, for messages.
+
+    Returns:
+        The address and the value.
+
+    Raises:
+        Usage: It is not of this form.
+    """
     address, equals, value = (piece.strip() for piece in text.partition("="))
     if not equals:
         rule = "a setting is address=value"
@@ -87,7 +110,20 @@ def split_setting(text: str, origin: str = "--set") -> tuple[str, str]:
 
 
 def override(spec: MappingNode, address: str, text: str, origin: str = "--set") -> MappingNode:
-    """The spec with one value set, laid over what stands at its address."""
+    """Set one value of a spec.
+
+    Args:
+        spec: The document.
+        address: The address, such as leg.knee.damping.
+        text: The value as text.
+        origin: The option that it comes from, for messages.
+
+    Returns:
+        A new document.
+
+    Raises:
+        InvalidSpec: The address or the value cannot be used.
+    """
     mark = Mark(f"{origin} {address}={text}")
     words = _sectioned(spec, _words(address, mark.file))
     if len(words) > DEPTH_LIMIT:
@@ -96,7 +132,7 @@ def override(spec: MappingNode, address: str, text: str, origin: str = "--set") 
 
 
 def laid(spec: MappingNode, address: str, value: Node, mark: Mark) -> MappingNode:
-    """The spec with a node laid over what stands at an address, as a row of a study does it."""
+    """Merge a node into a spec at an address, as for a row of a study."""
     return _laid(spec, _sectioned(spec, _words(address, str(mark))), value, mark)
 
 
@@ -114,7 +150,7 @@ def _laid(spec: MappingNode, words: tuple[str, ...], value: Node, mark: Mark) ->
 
 
 def _check_declares(spec: MappingNode, name: str, value: Node, mark: Mark, faults: Faults) -> None:
-    """What stands at `parameters.NAME` declares a parameter; a value alone belongs to another address."""
+    """Check that `parameters.NAME` declares a parameter; a value alone needs another address."""
     removed = isinstance(value, ScalarNode) and value.value is None
     if removed or (isinstance(value, MappingNode) and not _is_value(value)):
         return
@@ -133,7 +169,7 @@ def _check_declares(spec: MappingNode, name: str, value: Node, mark: Mark, fault
 
 
 def _check_is_no_part(spec: MappingNode, words: tuple[str, ...], mark: Mark, faults: Faults) -> None:
-    """What stands below `parameters.NAME` belongs to a parameter of the spec, not to a part of that name."""
+    """Check that an address below `parameters.NAME` belongs to a parameter of the spec and not to a part."""
     parts = spec.entries.get("parts")
     if isinstance(parts, MappingNode) and words[1] in parts.entries:
         wrong, right = ".".join(words), ".".join(words[1:])
@@ -141,7 +177,7 @@ def _check_is_no_part(spec: MappingNode, words: tuple[str, ...], mark: Mark, fau
 
 
 def _addresses(node: Node | None, name: str) -> Iterator[str]:
-    """Where below a section of parts a key of this name stands."""
+    """The addresses of a key in a section of parts."""
     for key, inner in node.entries.items() if isinstance(node, MappingNode) else ():
         if isinstance(inner, MappingNode):
             if name in inner.entries:
@@ -150,7 +186,7 @@ def _addresses(node: Node | None, name: str) -> Iterator[str]:
 
 
 def _put(entries: dict[str, Node], keys: dict[str, Mark], key: str, over: Node, mark: Mark) -> None:
-    """Lay a node over an entry, or remove that entry."""
+    """Merge a node into an entry, or remove the entry."""
     if isinstance(over, ScalarNode) and over.value is None and key in entries:
         del entries[key], keys[key]
         return
@@ -161,12 +197,12 @@ def _put(entries: dict[str, Node], keys: dict[str, Mark], key: str, over: Node, 
 
 
 def _is_value(node: Node) -> bool:
-    """Whether a mapping is one number with what belongs to it: value, tune, spread, source."""
+    """Whether a mapping is one number with its fields: value, tune, spread, source."""
     return isinstance(node, MappingNode) and bool(node.entries) and set(node.entries) <= VALUE_KEYS
 
 
 def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], MappingNode]) -> MappingNode:
-    """A parent; what is wrong with the file as a whole is said where it is named."""
+    """Read a parent. A fault of the file as a whole is reported at the place that names it."""
     try:
         # Whoever wrote `extends:` chose the file: of one that is no spec, no word is repeated.
         if not _SPEC.search(document.text_of(path, shown)):
@@ -183,7 +219,7 @@ def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], Mapp
 
 
 def without(node: MappingNode, *words: str) -> MappingNode:
-    """The mapping without some of its keys; the same one if it has none of them."""
+    """The mapping without some keys; the same object if it has none of them."""
     if node.entries.keys().isdisjoint(words):
         return node
     entries = {name: inner for name, inner in node.entries.items() if name not in words}
@@ -191,7 +227,7 @@ def without(node: MappingNode, *words: str) -> MappingNode:
 
 
 def without_marked(node: Node, marks: Set[Mark]) -> Node:
-    """The node without the entries whose keys stand at these places."""
+    """The node without the entries whose keys are at these places."""
     if isinstance(node, SequenceNode):
         return SequenceNode(tuple(without_marked(item, marks) for item in node.items), node.mark)
     if not isinstance(node, MappingNode):
@@ -209,7 +245,7 @@ def _words(address: str, said: str) -> tuple[str, ...]:
 
 
 def _sectioned(spec: MappingNode, words: tuple[str, ...]) -> tuple[str, ...]:
-    """The address from the top of the spec: which section its first word belongs to."""
+    """The address from the top of the spec, beginning with the section of its first word."""
     first, *rest = words
     if first == "initial" and rest:
         return first, ".".join(rest)
@@ -230,7 +266,7 @@ def _with(
     mark: Mark,
     faults: Faults,
 ) -> Node:
-    """The node with the value laid at the end of the words, walking down from `walked`."""
+    """The node with a value at the end of the words."""
     word, *rest = words
     path = (*walked, word)
     if isinstance(node, SequenceNode):
@@ -262,5 +298,5 @@ def _said(value: bool | float | str | None) -> str:
 
 
 def _address(path: tuple[str, ...]) -> str:
-    """The dotted address as users write it: parts and measures need not be named."""
+    """The dotted address as users write it: the words `parts` and `measures` may be left out."""
     return ".".join(path[1:] if path[0] in _SEARCHED and len(path) > 1 else path)

@@ -1,4 +1,4 @@
-"""The JSON Schema of specs: the fixed sections, and each component by its `use`."""
+"""The JSON Schema of specs: the fixed sections, and every component by its `use`."""
 
 from __future__ import annotations
 
@@ -44,7 +44,14 @@ _STRUCTURE = {
 
 
 def spec_schema(library: Library) -> dict[str, Any]:
-    """The schema for specs that use this library; components that do not load are left out."""
+    """Make the schema of specs that use a library.
+
+    Args:
+        library: The components; those that cannot be loaded are left out.
+
+    Returns:
+        The schema as plain data.
+    """
     schema = Header.model_json_schema()
     definitions = schema.setdefault("$defs", {})
     definitions |= {"value": _VALUE, "connection": _CONNECTION}
@@ -72,7 +79,7 @@ def spec_schema(library: Library) -> dict[str, Any]:
 
 
 def _entry(component: ComponentFile) -> dict[str, Any]:
-    """What an entry that uses this component may say."""
+    """The schema of an entry that uses a component."""
     properties: dict[str, Any] = {"use": {"type": "string"}, **_STRUCTURE}
     for name, parameter in component.parameters.items():
         properties[name] = _described("value", parameter.doc, parameter.unit, parameter.source)

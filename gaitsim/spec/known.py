@@ -1,4 +1,4 @@
-"""The section `reproduces` of a spec: values known from elsewhere, and the metrics that should have them."""
+"""The section `reproduces` of a spec: known values from elsewhere, and the metrics to compare with them."""
 
 from __future__ import annotations
 
@@ -11,7 +11,13 @@ from gaitsim.text.quantity import number, written_unit
 
 
 def known_values(section: Node | None, units: Mapping[str, str], faults: Faults) -> tuple[KnownValue, ...]:
-    """The rows of a section that has its shape; `units` has every metric. Wrong rows are faults and left out."""
+    """Read the rows of the section.
+
+    Args:
+        section: The section, if there is one.
+        units: The unit of every metric.
+        faults: Receives a fault for each wrong row; such rows are left out.
+    """
     rows = enumerate(section.items) if isinstance(section, SequenceNode) else ()
     return tuple(value for i, row in rows if isinstance(row, MappingNode) for value in _known(row, i, units, faults))
 

@@ -1,4 +1,4 @@
-"""The table of a model's numbers: values, tuned values, expressions and fractions."""
+"""The numbers of a model: values, tuned values, expressions and fractions."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _SPEC = "spec"  # the source of what a spec says without one
 
 
 def is_value(node: Node) -> bool:
-    """Whether a node says a number: a scalar or `{value: ..., tune: ...}`."""
+    """Whether a node is a number: a scalar or `{value: ..., tune: ...}`."""
     return isinstance(node, ScalarNode) or (
         isinstance(node, MappingNode) and bool(node.entries) and set(node.entries) <= VALUE_KEYS
     )
@@ -29,7 +29,7 @@ def is_value(node: Node) -> bool:
 
 @dataclass
 class NumberTable:
-    """Numbers in the order of their evaluation, and the free ones among them."""
+    """Numbers in the order in which they are computed, and the tuned ones among them."""
 
     faults: Faults
     numbers: list[Number] = field(default_factory=list)
@@ -47,10 +47,19 @@ class NumberTable:
         fraction_of: int | None = None,
         default: bool = False,
     ) -> int:
-        """Add one number; `logical` is its address as written once for all sides.
+        """Add a number.
 
         Args:
-            default: The node stands with the declaration, whose source then is the number's.
+            address: Its address.
+            logical: Its address as written once for all sides.
+            node: The node that sets it, if any.
+            declared: Its declaration.
+            names: The parameters that an expression may name.
+            fraction_of: The number of which it is a share, if any.
+            default: Whether the node belongs to the declaration, whose source then applies.
+
+        Returns:
+            The index of the number.
         """
         made = self._number(address, logical, node, _closed(declared, node), names, fraction_of)
         if default and made.source in ("", _SPEC):
@@ -62,7 +71,7 @@ class NumberTable:
         return self.index[address]
 
     def check_computed(self) -> None:
-        """Every expression has a value at the start, and one within bounds."""
+        """Check that every expression has a value at the start, within its bounds."""
         values: list[float] = []
         for i, each in enumerate(self.numbers):
             values.append(each.value)
@@ -214,12 +223,12 @@ class NumberTable:
 
 
 def _default(declared: Parameter) -> float:
-    """The declared value in SI; nan for none."""
+    """The declared default in SI; nan if there is none."""
     return math.nan if declared.default is None else parse_unit(declared.unit).to_si(declared.default)
 
 
 def _closed(declared: Parameter, node: Node | None) -> Parameter:
-    """A declaration that leaves its unit open, in the unit of what a spec says; any other as it is."""
+    """The declaration; an open unit is replaced by the unit in which the spec sets the number."""
     while isinstance(node, MappingNode):
         node = node.entries.get("tune", node.entries.get("value"))
     unit = written_unit(node)

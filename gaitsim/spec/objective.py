@@ -1,4 +1,4 @@
-"""The objective of a spec: a part whose inputs read metrics, and its terms, each an objective of its own."""
+"""The objective of a spec: a part whose inputs read metrics, and its terms, which are objectives too."""
 
 from __future__ import annotations
 
@@ -23,7 +23,19 @@ def read_objective(
     scope: Scope,
     address: str = "objective",
 ) -> Objective | None:
-    """The objective of a section whose key stands at `mark`; `units` has every metric. None after a fault."""
+    """Read an objective.
+
+    Args:
+        section: The section.
+        mark: The place of its key.
+        expansion: The parts of the spec; receives the faults.
+        units: The unit of every metric.
+        scope: The scope of names.
+        address: The address of the objective.
+
+    Returns:
+        The objective; None after a fault.
+    """
     faults = expansion.faults
     alone = Expansion(expansion.library, faults, expansion.use_for, expansion.table, broken=expansion.broken)
     above, _, name = address.rpartition(".")
@@ -58,7 +70,7 @@ def read_objective(
 def _terms(
     node: Node, expansion: Expansion, units: Mapping[str, str], scope: Scope, address: str
 ) -> tuple[Objective, ...]:
-    """Objectives by name, whose costs are added."""
+    """The terms of an objective, whose costs are added."""
     if not isinstance(node, MappingNode):
         sample = "{effort: {use: objective/minimize, value: {from: effort}}}"
         expansion.faults.add(f"{said(node)} is no mapping of names; write such as terms: {sample}.", node.mark, address)
@@ -76,7 +88,7 @@ def _terms(
 
 
 def _metrics(alone: Expansion, address: str, units: Mapping[str, str]) -> dict[str, str]:
-    """What the inputs read: metrics of the run, in units that fit."""
+    """The metrics that the inputs read, with fitting units."""
     metrics = {}
     for wire in alone.wires:
         name = wire.target.removeprefix(f"{address}.")

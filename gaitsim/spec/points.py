@@ -1,4 +1,4 @@
-"""Points on segments: `{on: shank, at: [-4 cm, 0 m, 30 %]}`, each coordinate a number of its own."""
+"""Points on segments, such as `{on: shank, at: [-4 cm, 0 m, 30 %]}`. Each coordinate is a number of the model."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _FIELDS = ("on", "at")
 
 @dataclass
 class PointReader:
-    """Reads lists of points; `%` needs the lengths of segments, so reading waits for all of them."""
+    """Reads lists of points. A `%` needs the lengths of segments, so points are read after all parts are known."""
 
     table: NumberTable
     faults: Faults
@@ -30,7 +30,7 @@ class PointReader:
     _waiting: list[tuple[str, Node, Where, list[Place]]] = field(default_factory=list)
 
     def later(self, name: str, node: MappingNode, where: Where) -> list[Place]:
-        """The points of an entry, empty until `read_all`."""
+        """The points of an entry. The list is empty until `read_all` is called."""
         given, places = node.entries.get(name), list[Place]()
         if isinstance(given, SequenceNode):
             self._waiting.append((name, given, where, places))
@@ -40,13 +40,15 @@ class PointReader:
         return places
 
     def one_later(self, name: str, node: MappingNode, where: Where) -> list[Place]:
-        """The place that an attachment says, `{on: pelvis.center, at: [...]}`; empty until `read_all`."""
+        """The place of an attachment, `{on: pelvis.center, at: [...]}`. The list is empty until `read_all` is
+        called.
+        """
         places = list[Place]()
         self._waiting.append((name, node, where, places))
         return places
 
     def read_all(self) -> None:
-        """Read every point that waits."""
+        """Read all points."""
         for name, node, where, places in self._waiting:
             items = node.items if isinstance(node, SequenceNode) else (node,)
             names = [f"{name}.{i}" for i in range(len(items))] if isinstance(node, SequenceNode) else [name]
@@ -102,7 +104,7 @@ class PointReader:
         return self.table.add(address, logical, node, _FRACTION, where.scope.names, fraction_of=length)
 
     def _length(self, frame: str) -> int | None:
-        """The number that is the length of the segment a frame belongs to."""
+        """The number that is the length of the segment of a frame."""
         owner = frame
         while owner:
             if f"{owner}.length" in self.table.index:

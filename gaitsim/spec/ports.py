@@ -1,4 +1,4 @@
-"""What an entry says about its ports: constants, connections, attachments, options."""
+"""The ports in an entry of a spec: constants, connections, attachments and options."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _FIELDS = ("from", "delay", "initial")
 
 @dataclass(frozen=True)
 class Wire:
-    """A connection as written: addresses absolute, aliases of composites not yet followed."""
+    """A connection as written. Its addresses are absolute and may be names of composites."""
 
     sender: str
     target: str
@@ -31,7 +31,7 @@ class Wire:
 
 @dataclass(frozen=True)
 class Constant:
-    """A number written where a connection could be; its unit is that of the input inside."""
+    """A number for an input. Its unit is that of the primitive's input."""
 
     target: str
     logical: str
@@ -41,7 +41,7 @@ class Constant:
 
 @dataclass
 class PortReader:
-    """Reads ports of entries into wires and constants."""
+    """Reads the ports of entries."""
 
     table: NumberTable
     faults: Faults
@@ -51,11 +51,11 @@ class PortReader:
     marks: dict[str, Mark] = field(default_factory=dict)  # where attachments are written
 
     def wire(self, sender: str, target: str, where: Where) -> None:
-        """A connection that a part makes with its own inner part."""
+        """Add a connection that a part makes with its own inner part."""
         self.wires.append(Wire(sender, target, None, None, where.address, where.mark))
 
     def input(self, name: str, declared: Input, node: MappingNode, where: Where) -> None:
-        """Wire an input, or give it a constant."""
+        """Read an input: a connection or a constant."""
         given, port = node.entries.get(name), f"{where.address}.{name}"
         if given is None:
             return
@@ -77,7 +77,7 @@ class PortReader:
         self.constants.append(Constant(port, f"{where.logical}.{name}", given, where.scope.names))
 
     def link(self, name: str, declared: Link, node: MappingNode, where: Where) -> None:
-        """The connections that the name of another part makes."""
+        """Add the connections that a link makes with the part that it names."""
         given = node.entries.get(name)
         if given is None:
             return
@@ -91,7 +91,7 @@ class PortReader:
         self.wires += [Wire(sender, target, None, None, where.address, given.mark) for sender, target in reads + sends]
 
     def to(self, node: MappingNode, outputs: list[str], where: Where) -> None:
-        """Send outputs to summing inputs: `to: port`, `to: [ports]`, or `to: {output: port(s)}`."""
+        """Read `to: port`, `to: [ports]`, or `to: {output: port(s)}`, which send outputs to summing inputs."""
         given = node.entries.get("to")
         if given is None:
             return
@@ -110,7 +110,7 @@ class PortReader:
             self.faults.add(rule, given.mark, where.address)
 
     def attachments(self, names: Iterable[str], node: MappingNode, where: Where) -> dict[str, str]:
-        """The frames that an entry is fastened to."""
+        """The frames to which an entry is fastened."""
         found = {}
         for name in names:
             given = node.entries.get(name)
@@ -126,7 +126,7 @@ class PortReader:
         return found
 
     def option(self, name: str, declared: Option, node: MappingNode, where: Where) -> str:
-        """The word chosen for an option."""
+        """The word that is chosen for an option."""
         given = node.entries.get(name)
         value = given.value if isinstance(given, ScalarNode) else declared.default
         if value in declared.choices and (given is None or isinstance(given, ScalarNode)):

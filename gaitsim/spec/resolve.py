@@ -25,10 +25,17 @@ Settings = Iterable[tuple[str, str]]
 
 
 def read_spec(path: Path, settings: Settings = ()) -> MappingNode:
-    """The spec's document with its parents merged in and `--set` applied.
+    """Read a spec, merge it with its parents, and apply settings.
+
+    Args:
+        path: The file.
+        settings: Pairs of an address and a value as text, such as those of `--set`.
+
+    Returns:
+        The document.
 
     Raises:
-        InvalidSpec: The spec breaks a rule.
+        InvalidSpec: A file cannot be read, or a setting cannot be applied.
     """
     document = with_parents(path, str(path))
     for address, text in settings:
@@ -37,10 +44,15 @@ def read_spec(path: Path, settings: Settings = ()) -> MappingNode:
 
 
 def resolve(document: MappingNode, library: Library, name: str) -> Model:
-    """The model of a document.
+    """Make the model of a document.
+
+    Args:
+        document: The document, with parents and settings applied.
+        library: The components.
+        name: The name of the model.
 
     Raises:
-        InvalidSpec: With every fault found.
+        InvalidSpec: The document has faults; the error holds all of them.
     """
     faults = Faults()
     head, document = header(document, faults)
@@ -86,7 +98,7 @@ def resolve(document: MappingNode, library: Library, name: str) -> Model:
 
 
 def _long_steps(parts: Iterable[Part], step: float) -> list[str]:
-    """A warning for each component that is not right at a step as long as this."""
+    """A warning for each component that is not accurate at this step."""
     beyond: dict[Primitive, list[str]] = {}
     for part in parts:
         if step > part.type.largest_step * (1 + 1e-9):
@@ -103,7 +115,7 @@ def _few(names: list[str]) -> str:
 
 
 def _kinds(document: MappingNode, library: Library, faults: Faults) -> dict[str, MappingNode]:
-    """`use_for`: kinds that are swapped as a whole, each with what its parts then say."""
+    """The section `use_for`: the component of each kind that is replaced as a whole."""
     section, found = _section(document, "use_for"), {}
     for kind, node in section.entries.items():
         entry = node if isinstance(node, MappingNode) else MappingNode({"use": node}, {"use": node.mark}, node.mark)
@@ -126,7 +138,7 @@ def _kinds(document: MappingNode, library: Library, faults: Faults) -> dict[str,
 
 
 def _mask(document: MappingNode, table: NumberTable, scope: Scope, faults: Faults) -> None:
-    """The spec's own parameters."""
+    """Read the parameters of the spec."""
     section = _section(document, "parameters")
     declared, defaults = declared_parameters(section, faults)
     for name, parameter in declared.items():
@@ -137,10 +149,10 @@ def _mask(document: MappingNode, table: NumberTable, scope: Scope, faults: Fault
 
 
 def _check_names(document: MappingNode) -> None:
-    """One namespace: a name stands for one thing.
+    """Check that each name is used once.
 
     Raises:
-        InvalidSpec: ; what else is wrong cannot be told before names are clear.
+        InvalidSpec: A name is used twice. Other faults are not searched for then.
     """
     faults = Faults()
     taken = {WORLD: "the ground"} | dict.fromkeys(Header.model_fields, "a section of specs")
@@ -156,7 +168,7 @@ def _check_names(document: MappingNode) -> None:
 
 
 def _initial(section: MappingNode, wiring: Wiring, scope: Scope) -> dict[str, int]:
-    """Initial coordinates and states: address of an output or a state -> number."""
+    """The initial coordinates and states: the number for each address of an output or a state."""
     found = {}
     for key, node in section.entries.items():
         first, _, rest = key.partition(".")

@@ -1,4 +1,4 @@
-"""The fixed sections of a spec, as pydantic models; the JSON Schema comes from the same place."""
+"""The fixed sections of a spec as pydantic models. The JSON Schema is derived from them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from gaitsim.text.spelling import respelled
 
 
 def _quantity(unit: str, above: float | None = None) -> tuple[BeforeValidator, WithJsonSchema]:
-    """What makes a float one in SI, written with its unit."""
+    """The validator and the schema of a float in SI that is written with a unit."""
 
     def convert(value: object) -> float:
         if isinstance(value, bool) or not isinstance(value, str | int | float):
@@ -60,7 +60,7 @@ _MOST_STEPS = 1e12  # days of computing, and what an integer of 64 bits holds wi
 
 
 def _combination(value: object) -> str:
-    """`mean`, `worst` or `quantile Q` with Q from 0 to 1."""
+    """Check a way to combine scores: `mean`, `worst` or `quantile Q` with Q from 0 to 1."""
     text = " ".join(str(value).split()) if isinstance(value, str) else ""
     word, _, share = text.partition(" ")
     if text in ("mean", "worst") or (word == "quantile" and _SHARE.fullmatch(share)):
@@ -79,7 +79,7 @@ _Acceleration = Annotated[float, *_quantity("m/s^2")]
 
 
 class SimulateSection(_Section):
-    """How long, in which steps, under which gravity."""
+    """Duration, step, gravity and integrator of a simulation."""
 
     duration: _Seconds = Field(description="Simulated time.")
     step: _Seconds = Field(description="Time step.")
@@ -95,7 +95,7 @@ class SimulateSection(_Section):
 
 
 class SearchSection(_Section):
-    """How a search goes; the command line may say otherwise."""
+    """The settings of a search. Options of the command line replace them."""
 
     algorithm: str = Field(default=DEFAULT, description=f"Search algorithm: {alternatives(ALGORITHMS)}.")
     population: Annotated[int, Field(ge=2)] | None = Field(default=None, description="Candidates per generation.")
@@ -110,7 +110,7 @@ class SearchSection(_Section):
 
 
 class OptimizeSection(SearchSection):
-    """How the spec is searched, and in which episodes a candidate is judged."""
+    """The settings of a search, and the episodes in which candidates are simulated."""
 
     episodes: list[dict[str, Any]] = Field(
         default=[],
@@ -126,7 +126,7 @@ _Written = Annotated[Any, WithJsonSchema({"type": ["string", "number"], "example
 
 
 class KnownRow(_Section):
-    """A value that is known from elsewhere, and the metric that should have it."""
+    """A known value from elsewhere, and the metric to compare with it."""
 
     what: str = Field(description="What it is, in words.")
     metric: str = Field(description="The metric that is compared, such as apex_height.")
@@ -136,7 +136,7 @@ class KnownRow(_Section):
 
 
 class Header(_Section):
-    """A spec, as far as its shape is fixed; parts are checked against their components."""
+    """The fixed part of a spec. The entries of parts are checked against their components."""
 
     gaitsim: Literal[1] = Field(description="Version of the spec format.")
     about: str = Field(default="", description="What the model is, and its source.")
@@ -165,13 +165,21 @@ _ROWS: dict[str, type[_Section]] = {"reproduces": KnownRow}
 
 
 def optimize_section(document: MappingNode) -> OptimizeSection:
-    """How a resolved document wants to be searched."""
+    """The section `optimize:` of a resolved document, with defaults."""
     section = document.entries.get("optimize")
     return OptimizeSection.model_validate(plain(section) if isinstance(section, MappingNode) else {})
 
 
 def header(document: MappingNode, faults: Faults) -> tuple[Header | None, MappingNode]:
-    """The header of a document, None after faults, and the document with its keys as they were meant."""
+    """Check the fixed sections of a document.
+
+    Args:
+        document: The document.
+        faults: Receives the faults.
+
+    Returns:
+        The header, which is None after faults, and the document with misspelt keys replaced.
+    """
     document = respelled(document, Header.model_fields, "a spec has no key", faults)
     for name, model in _SECTIONS.items():
         section = document.entries.get(name)
@@ -198,7 +206,7 @@ def header(document: MappingNode, faults: Faults) -> tuple[Header | None, Mappin
 
 
 def _with(document: MappingNode, name: str, section: Node) -> MappingNode:
-    """The document with another section of this name."""
+    """The document with one section replaced."""
     return MappingNode(document.entries | {name: section}, document.keys, document.mark)
 
 
@@ -213,7 +221,7 @@ def _check_steps(simulate: SimulateSection, document: MappingNode, faults: Fault
 
 
 def _report(detail: Any, document: MappingNode, faults: Faults) -> None:
-    """One mistake that pydantic found, in our words."""
+    """Add a fault of pydantic in our own words."""
     path = [word for word in detail["loc"] if word != "[key]"]
     address = ".".join(str(word) for word in path)
     name = str(path[-1])

@@ -1,4 +1,4 @@
-"""Where a name in a spec is looked up: among siblings, then outwards as far as the same text reaches."""
+"""Scopes of names in a spec: a name is searched among siblings, then outwards within the same text."""
 
 from __future__ import annotations
 
@@ -34,14 +34,14 @@ class Scope:
 
     @property
     def references(self) -> list[str]:
-        """The composites that this scope lies in, outermost first."""
+        """The composites around this scope, outermost first."""
         outer = self.outer.references if self.outer else []
         return [*outer, self.reference] if self.reference else outer
 
 
 @dataclass(frozen=True)
 class Where:
-    """The place of one entry: its address, as written once for all sides, and its surroundings."""
+    """The place of one entry: its address, its address as written once for all sides, and its scope."""
 
     address: str
     logical: str
@@ -53,7 +53,17 @@ class Where:
 
 
 def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:
-    """The address that a text such as `shank.distal` means there; None after a fault."""
+    """Find the absolute address of a name.
+
+    Args:
+        text: The name as written, such as `shank.distal`.
+        where: The entry that it is written in.
+        mark: Its place.
+        faults: Receives a fault if there is no such name.
+
+    Returns:
+        The address; None after a fault.
+    """
     text = _with_side(text, where.side)
     if text == WORLD:
         return WORLD

@@ -19,7 +19,19 @@ SAMPLE = "norms/fukuchi2018_walking.knee_flexion"
 def read_series(
     name: str, declared: Series, node: Node, library: Library, faults: Faults, address: str
 ) -> Recording | None:
-    """The numbers of a series in SI, `declared.size` of them at equal distances; None after a fault."""
+    """Read a recorded curve.
+
+    Args:
+        name: The name of the series.
+        declared: Its declaration.
+        node: The column or the list.
+        library: The tables.
+        faults: Receives the faults.
+        address: The address of the series.
+
+    Returns:
+        `declared.size` numbers in SI at equal distances; None after a fault.
+    """
     if isinstance(node, SequenceNode):
         before = len(faults.found)
         comma = comma_within(node)

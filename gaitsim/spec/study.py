@@ -18,7 +18,7 @@ _RANGE_LIMIT = 100_000
 
 @dataclass(frozen=True)
 class Variant:
-    """One row of a study: what is set, as written, and the spec with it; and where the row is written."""
+    """One row of a study: its settings as written, the document with them, and the place of the row."""
 
     settings: dict[str, str]
     document: MappingNode
@@ -27,22 +27,22 @@ class Variant:
 
 @dataclass(frozen=True)
 class Span:
-    """All values from one end to another, which may be the lower one, in one unit."""
+    """A range of values in one unit. Its first end may be the larger one."""
 
     first: float
     last: float
     unit: str
 
     def at(self, share: float) -> str:
-        """The value at a share of the way, from 0 to 1, as a spec has it."""
+        """The value at a share of the range, from 0 to 1, as text for a spec."""
         return with_unit(repr(float(f"{self.first + share * (self.last - self.first):.12g}")), self.unit)
 
 
 def span(text: str) -> tuple[str, Span]:
-    """An address and the values to look through: `push.strength=0 N:200 N`.
+    """Read an address and a range, such as `push.strength=0 N:200 N`.
 
     Raises:
-        Usage: The request does not fit.
+        Usage: The text is not of this form, or its units do not fit.
     """
     address, values = split_setting(text, "--vary")
     pieces = [piece.strip() for piece in values.split(":")]
@@ -53,11 +53,18 @@ def span(text: str) -> tuple[str, Span]:
 
 
 def variants(document: MappingNode, vary: Sequence[str]) -> list[Variant]:
-    """Every row of the spec's `study:` combined with every value of each `--vary`.
+    """Combine every row of the section `study:` with every value of each `--vary`.
+
+    Args:
+        document: The document.
+        vary: Texts such as `gain=1,2,3` or `gain=1:15:20`.
+
+    Returns:
+        The rows; one row without changes if nothing varies.
 
     Raises:
-        Usage: A `--vary` that is no list of values.
-        InvalidSpec: A bad study.
+        Usage: A `--vary` is not a list of values.
+        InvalidSpec: The study has a fault.
     """
     columns = [_column(text) for text in vary]
     base = without(document, "study")
@@ -73,10 +80,10 @@ def variants(document: MappingNode, vary: Sequence[str]) -> list[Variant]:
 
 
 def episodes(document: MappingNode) -> list[Variant]:
-    """Every episode of the spec's `optimize:`; the spec as it is, if it has none.
+    """The episodes of the section `optimize:`; the unchanged document if it has none.
 
     Raises:
-        InvalidSpec: A bad list of episodes.
+        InvalidSpec: The list of episodes has a fault.
     """
     section = document.entries.get("optimize")
     inside = section if isinstance(section, MappingNode) else MappingNode({}, {}, document.mark)
@@ -85,7 +92,7 @@ def episodes(document: MappingNode) -> list[Variant]:
 
 
 def _table(section: Node | None, key: Mark | None, base: MappingNode, name: str) -> list[Variant]:
-    """The rows of a list of overrides; without one, the base as it is."""
+    """The rows of a list of overrides; the unchanged base without a list."""
     if section is None or plain(section) in (None, []):
         return [Variant({}, base)]
     rows, faults = [], Faults()
@@ -108,7 +115,7 @@ def _text(node: Node) -> str:
 
 
 def _column(text: str) -> tuple[str, list[str]]:
-    """An address and its values: `gain=1:15:20` (from, to, how many) or `step=1 ms,0.5 ms`."""
+    """An address and its values: `gain=1:15:20` (first, last, count) or `step=1 ms,0.5 ms`."""
     address, values = split_setting(text, "--vary")
     pieces = [piece.strip() for piece in values.split(":")]
     if len(pieces) == 3:
@@ -128,10 +135,10 @@ def _range(pieces: list[str], text: str) -> list[str]:
 
 
 def _span(low: str, high: str, text: str) -> Span | None:
-    """What lies between two values; None if one is no number.
+    """The range between two values; None if one of them is not a number.
 
     Raises:
-        Usage: Units that do not fit.
+        Usage: The units do not fit.
     """
     try:
         first, last = parse_quantity(low), parse_quantity(high)
