@@ -124,7 +124,7 @@ def _from_contract(class_name: str, contract: Path, text: str) -> str:
         '    result = Output("1", "What goes out.")',
     ]
     words = sorted({"Component", *re.findall(r"= (\w+)\(", "\n".join(lines))})
-    doc = f'    """{about.rstrip(".")}; write here what yours computes, and by which paper."""'
+    doc = f'    """{about.rstrip(".")}; replace it by your equations, and cite their paper."""'
     head = f"from gaitsim.component import {', '.join(words)}"
     return "\n".join([head, "", "", f"class {class_name}(Component):", doc, "", *lines, *functions, ""])
 

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import ctypes
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -28,7 +29,7 @@ class Trial:
         homes: list[Mapping[str, Any]] = [kind.parameters | kind.series, kind.inputs, kind.states, kind.outputs]
         self.homes = homes
         self.arrays: list[Floats] = []
-        self.views: list[View] = []
+        self.places: list[dict[str, int | slice]] = []
         for declared in homes:
             places: dict[str, int | slice] = {}
             end = 0
@@ -36,14 +37,18 @@ class Trial:
                 size = getattr(one, "size", None)
                 places[name] = end if size is None else slice(end, end + size)
                 end += size or 1
-            table = np.zeros(max(end, 1))
-            self.arrays.append(table)
-            self.views.append(View(table, places))
-        self.p, self.u, self.x, self.y = self.views
+            self.arrays.append(np.zeros(max(end, 1)))
+            self.places.append(places)
+        self._look()
         for declared, view in zip(homes[:2], self.views, strict=False):
             for name, one in declared.items():
                 if getattr(one, "default", None) is not None:
                     setattr(view, name, parse_unit(one.unit).to_si(one.default))
+
+    def _look(self) -> None:
+        """Views of the tables."""
+        self.views = [View(table, places) for table, places in zip(self.arrays, self.places, strict=True)]
+        self.p, self.u, self.x, self.y = self.views
 
     def put(self, values: Mapping[str, Any]) -> Trial:
         """Set parameters, inputs and states by name, and outputs that MuJoCo would set.
@@ -61,16 +66,16 @@ class Trial:
 
     def copy(self) -> Trial:
         """The same numbers in tables of their own."""
-        made = Trial(self.kind)
-        for mine, theirs in zip(made.arrays, self.arrays, strict=True):
-            mine[:] = theirs
+        made = Trial.__new__(Trial)
+        made.kind, made.homes, made.places = self.kind, self.homes, self.places
+        made.arrays = [table.copy() for table in self.arrays]
+        made._look()
         return made
 
     def call(self, stage: str, mode: Mode = "rapid", dt: float = 1e-3) -> bool:
         """Run start, output, update or reset in place, the last at the time dt; whether it raised."""
         if mode == "rapid":
-            kernel = _C_FUNCTION(address_of(self.kind))
-            pointers = [table.ctypes.data for table in self.arrays]
+            kernel, pointers = self._native
             return bool(kernel(STAGES[stage], *pointers, dt))
         p, u, x, y = self.views
         arguments = {"start": (p, u, x), "output": (p, u, x, y)}.get(stage, (p, u, x, y, dt))
@@ -80,6 +85,11 @@ class Trial:
         except Exception:
             return True
         return False
+
+    @cached_property
+    def _native(self) -> tuple[Callable[..., int], list[int]]:
+        """The native function and the addresses of the tables, which stay where they are."""
+        return _C_FUNCTION(address_of(self.kind)), [table.ctypes.data for table in self.arrays]
 
     @property
     def stages(self) -> list[str]:

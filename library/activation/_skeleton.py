@@ -2,15 +2,19 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, State
 
 
 class Skeleton(Component):
-    """Activation that follows the excitation, dA/dt = (u - A) / tau; write here what yours computes."""
+    """Activation that follows the excitation, dA/dt = (u - A) / tau; replace it by your equations."""
 
-    time_constant = Parameter("s", "tau.", default=0.01, bounds=(1e-4, 1), source="geyer2003")
+    time_constant = Parameter("s", "tau: time constant.", default=0.01, bounds=(1e-4, 1), source="geyer2003")
     excitation = Input("1", "Sum of all stimulations.", sums=True)
     level = State("1", "Activation A.")
     activation = Output("1", "Activation A.")
 
     response = Curve(
-        "activation", "time", (0, 0.15), "Answer to an excitation that comes and goes.", steps={"excitation": (0, 1, 0)}
+        "activation",
+        "time",
+        (0, 0.15),
+        "Response to an excitation that is switched on and off.",
+        steps={"excitation": (0, 1, 0)},
     )
 
     @staticmethod

@@ -4,7 +4,7 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, State
 
 
 class DeGroote2016(Component):
-    """Activation that rises faster than it falls, with a smooth passage between both (De Groote et al. 2016).
+    """Activation that rises faster than it falls, with a smooth transition between the two (De Groote et al. 2016).
 
     a' = [(0.5 + f) / (tau_act s) + (0.5 - f) s / tau_deact] (u - a), s = 0.5 + 1.5 a,
     f = 0.5 tanh(b (u - a)); u is clipped to [min, 1].
@@ -18,15 +18,15 @@ class DeGroote2016(Component):
     )
     smoothing = Parameter(
         "1",
-        "b: sharpness of the passage. With 0.1 rise and fall take about the mean of both time constants; with 10, "
-        "which OpenSim recommends and does not construct, each takes its own.",
+        "b: sharpness of the transition. With 0.1, both rise and fall have about the mean of the time constants. With "
+        "10, which OpenSim recommends but does not use by default, each has its own.",
         default=0.1,
         bounds=(0.01, 1000),
         source="degroote2016",
     )
     min_excitation = Parameter(
         "1",
-        "Least excitation; keeps the fiber from losing all force.",
+        "Minimum excitation, so that the fiber never loses all force.",
         default=0.01,
         bounds=(0, 1),
         source="dembia2020: OpenSim's DeGrooteFregly2016Muscle",

@@ -9,14 +9,14 @@ class FirstOrder(Component):
     time_constant = Parameter("s", "Time constant tau.", default=0.01, bounds=(1e-4, 1), source="geyer2003")
     min_excitation = Parameter(
         "1",
-        "Least excitation; keeps the contractile element from losing all force.",
+        "Minimum excitation, so that the contractile element never loses all force.",
         default=0.01,
         bounds=(0, 1),
         source="geyer2003",
     )
     longest_substep = Parameter(
         "ms",
-        "A longer step is made in equal parts no longer than this, over which the stimulation goes on as it did.",
+        "Longer steps are divided into equal substeps of at most this; the stimulation is extrapolated linearly.",
         default=0.5,
         bounds=(1e-3, 100),
         source="definition: a twentieth of the time constant",
@@ -27,7 +27,11 @@ class FirstOrder(Component):
     activation = Output("1", "Activation A.")
 
     response = Curve(
-        "activation", "time", (0, 0.15), "Answer to an excitation that comes and goes.", steps={"excitation": (0, 1, 0)}
+        "activation",
+        "time",
+        (0, 0.15),
+        "Response to an excitation that is switched on and off.",
+        steps={"excitation": (0, 1, 0)},
     )
 
     @staticmethod

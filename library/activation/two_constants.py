@@ -15,7 +15,7 @@ class TwoConstants(Component):
         "ms", "tau_deact: time constant of deactivation.", default=40, bounds=(0.1, 1000), source="millard2013"
     )
     min_excitation = Parameter(
-        "1", "Least excitation and activation.", default=0.01, bounds=(0, 1), source="millard2013"
+        "1", "Minimum excitation and activation.", default=0.01, bounds=(0, 1), source="millard2013"
     )
     excitation = Input("1", "Sum of all stimulations, u.", sums=True)
     level = State("1", "Activation a.")

@@ -2,42 +2,46 @@ from gaitsim.component import Attachment, Component, Output, Parameter
 
 
 class Vertical(Component):
-    """Keeps one frame straight below (or above) another in the sagittal plane: a restrictor.
+    """Constraint that keeps one frame vertically below (or above) another in the sagittal plane.
 
-    A point has the same distance from two places exactly if it lies on the plane half way between
-    them. So two tendons run from the point to a place in front of the line and to one as far
-    behind it, and one equality keeps them equally long. That adds one row to the solver, no body and no mass.
+    Points at equal distance from two places lie on the plane half way between these. Two tendons run
+    from the point to a place in front of the line and to a place equally far behind it. One equality
+    constraint keeps their lengths equal. It adds one row to the solver, and no body or mass.
     """
 
-    line = Attachment("The frame that the vertical runs through.")
+    line = Attachment("The frame through which the vertical runs.")
     point = Attachment("The frame that is kept on the vertical.")
     distance = Parameter(
         "m",
-        "How far in front and behind the two places are.",
+        "Distance of the two places in front of and behind the line.",
         default=1,
         bounds=(0.1, 1000),
-        source="definition: of the order of a leg, so that no digits are lost",
+        source="definition: about a leg's length, to limit rounding errors",
     )
     time_constant = Parameter(
         "s",
-        "How fast a deviation is closed; MuJoCo takes at least two steps.",
+        "Time constant with which a deviation decays; MuJoCo takes at least two steps.",
         default=0.001,
         bounds=(1e-6, 1),
         source="definition: fast compared with a hop",
     )
     impedance = Parameter(
-        "1", "d of MuJoCo's constraint.", default=0.9999, bounds=(0.5, 0.9999), source="definition: MuJoCo's largest"
+        "1",
+        "Impedance d of MuJoCo's constraint.",
+        default=0.9999,
+        bounds=(0.5, 0.9999),
+        source="definition: MuJoCo's largest",
     )
     moved_mass = Parameter(
         "kg",
-        "Mass that the point moves with, for the energy of a deviation only.",
+        "Effective mass of the point; used for the energy of a deviation only.",
         default=1,
         bounds=(1e-3, 1000),
-        source="definition: of the order of a shank",
+        source="definition: about a shank's mass",
     )
     ahead = Output("m", "Distance of the point from the place in front.")
     behind = Output("m", "Distance of the point from the place behind.")
-    deviation = Output("m", "How far in front of the vertical the point is.")
+    deviation = Output("m", "Distance of the point in front of the vertical.")
     energy = Output("J", "Elastic energy of the deviation, m (x / T)^2 / 2.")
 
     @staticmethod

@@ -2,20 +2,26 @@ from gaitsim.component import Attachment, Component, Curve, Output, Parameter
 
 
 class Skeleton(Component):
-    """A vertical force on a point below level ground, F = k d (1 - c d'); write here what yours computes."""
+    """A vertical force on a point below level ground, F = k d (1 - c d'); replace it by your equations."""
 
     frame = Attachment("The point that touches the ground.")
-    stiffness = Parameter("N/m", "k.", default=1e5, bounds=(1, 1e8), source="definition: 80 kg sink in by 8 mm")
-    dissipation = Parameter(
-        "s/m", "c: how much less force there is on the way up.", default=0.5, bounds=(0, 10), source="definition: some"
+    stiffness = Parameter(
+        "N/m", "k: stiffness.", default=1e5, bounds=(1, 1e8), source="definition: 80 kg sink in by 8 mm"
     )
-    position = Output("m", "Where the point is along the ground.")
+    dissipation = Parameter(
+        "s/m",
+        "c: dissipation; reduces the force while the point moves up.",
+        default=0.5,
+        bounds=(0, 10),
+        source="definition: a starting value",
+    )
+    position = Output("m", "Position of the point along the ground.")
     height = Output("m", "Height of the point above the ground.", usual=(-0.03, 100), possible=(-0.3, 1e4))
     velocity = Output("m/s", "Upward velocity of the point.")
-    weight = Output("N", "Weight of all that moves.")
+    weight = Output("N", "Weight of the whole model.")
     force = Output("N", "Force of the ground on the point, upwards.")
-    friction_force = Output("N", "Force along the ground, forwards; here none.")
-    load = Output("1", "Force in weights of all that moves; 0 without gravity.", usual=(0, 3), possible=(0, 20))
+    friction_force = Output("N", "Forward force along the ground; 0 here.")
+    load = Output("1", "Force in body weights; 0 without gravity.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the point is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, k d^2 / 2.")
 

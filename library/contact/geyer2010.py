@@ -4,46 +4,52 @@ from gaitsim.component import Attachment, Component, Curve, Input, Output, Param
 class Geyer2010(Component):
     """The ground of Geyer & Herr (2010): a nonlinear spring-damper with stiction and sliding, under one point.
 
-    Normal: F = k d (1 + d' / v), never pulling, with k = weight / 1 cm. Stiction: from where the point
-    touched down or came to rest, F = -k_x dx (1 + sgn(dx) x' / v_x), with k_x = weight / 10 cm, until it
-    exceeds 0.9 of the normal force; then sliding with 0.8 of it, until the point is slower than 1 cm/s.
+    Normal force: F = k d (1 + d' / v), never negative, with k = weight / 1 cm. Stiction: F = -k_x dx (1 + sgn(dx) x' /
+    v_x), with k_x = weight / 10 cm and dx counted from where the point touched down or came to rest. Beyond 0.9 of the
+    normal force the point slides, with a friction of 0.8 of the normal force, until it is slower than 1 cm/s.
 
-    On a light foot this is a damper first of all: 26 kN s/m at 1 cm. An explicit step of 1 ms then adds energy, so
-    its velocity terms are solved for the velocity at the end of the step. The forces that go out are
-    those that acted in the step before.
+    Under a light foot, damping dominates: 26 kN s/m at 1 cm. An explicit step of 1 ms would add energy. The velocity
+    terms are therefore solved implicitly, for the velocity at the end of the step. The output forces are those of
+    the previous step.
     """
 
     frame = Attachment("The point that touches the ground.")
     sinking = Parameter(
         "m",
-        "How deep the weight of all presses one point: k = weight / this.",
+        "Depth of one point under the weight of the whole model: k = weight / depth.",
         default=0.01,
         bounds=(1e-5, 1),
         source="geyer2010",
     )
     release_velocity = Parameter(
         "m/s",
-        "v: at this velocity out of the ground the normal force vanishes.",
+        "v: upward velocity at which the normal force vanishes.",
         default=0.03,
         bounds=(1e-4, 100),
         source="geyer2010",
     )
     shear = Parameter(
         "m",
-        "How far the weight of all would shift one point: k_x = weight / this.",
+        "Shift of one point under a horizontal force of one weight: k_x = weight / shift.",
         default=0.1,
         bounds=(1e-5, 10),
         source="geyer2010",
     )
-    shear_velocity = Parameter("m/s", "v_x.", default=0.03, bounds=(1e-4, 100), source="geyer2010")
+    shear_velocity = Parameter(
+        "m/s",
+        "v_x: sliding velocity at which the spring force doubles or vanishes.",
+        default=0.03,
+        bounds=(1e-4, 100),
+        source="geyer2010",
+    )
     static_friction = Parameter(
-        "1", "Friction at which a point slips, in normal forces.", default=0.9, bounds=(0, 10), source="geyer2010"
+        "1", "Coefficient of static friction: a point slips beyond it.", default=0.9, bounds=(0, 10), source="geyer2010"
     )
     sliding_friction = Parameter(
-        "1", "Friction of a point that slides, in normal forces.", default=0.8, bounds=(0, 10), source="geyer2010"
+        "1", "Coefficient of sliding friction.", default=0.8, bounds=(0, 10), source="geyer2010"
     )
     sticking_velocity = Parameter(
-        "m/s", "Below this a point that slides sticks again.", default=0.01, bounds=(1e-5, 10), source="geyer2010"
+        "m/s", "Velocity below which a sliding point sticks again.", default=0.01, bounds=(1e-5, 10), source="geyer2010"
     )
     terrain = Part(
         "terrain",
@@ -52,25 +58,25 @@ class Geyer2010(Component):
         reads=(("ground_height", "height"),),
         sends=(("position", "position"),),
     )
-    ground_height = Input("m", "Height of the ground where the point is.", default=0)
-    touching = State(levels=("no", "yes"), doc="Whether the point was in the ground one step ago.")
-    mode = State(levels=("sliding", "sticking"), doc="How the ground held the point one step ago.")
-    held_at = State("m", "Where the point sticks.")
-    stepped = State(levels=("no", "yes"), doc="Whether there is a step before.")
+    ground_height = Input("m", "Height of the ground below the point.", default=0)
+    touching = State(levels=("no", "yes"), doc="Whether the point was below the surface one step ago.")
+    mode = State(levels=("sliding", "sticking"), doc="Whether the point was sliding or sticking one step ago.")
+    held_at = State("m", "Position at which the point sticks.")
+    stepped = State(levels=("no", "yes"), doc="No in the first step, yes afterwards.")
     spring_before = State("N", "Normal force without velocity, one step ago.")
     shear_before = State("N", "Shear force without velocity, one step ago.")
     drag_before = State("N s/m", "Damping along the ground, one step ago.")
-    position = Output("m", "Where the point is along the ground.")
-    slip_velocity = Output("m/s", "Its rate.")
+    position = Output("m", "Position of the point along the ground.")
+    slip_velocity = Output("m/s", "Velocity of the point along the ground.")
     height = Output("m", "Height of the point.", usual=(-0.03, 100), possible=(-0.3, 1e4))
     velocity = Output("m/s", "Upward velocity of the point.")
-    weight = Output("N", "Weight of all that moves.")
+    weight = Output("N", "Weight of the whole model.")
     force = Output("N", "Force of the ground on the point, along the ground's normal; one step old.")
     friction_force = Output("N", "Force of the ground on the point, forwards along the ground; one step old.")
-    load = Output("1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20))
+    load = Output("1", "Force in body weights; one step old.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the point is below the ground's surface, else 0.")
-    sticks = Output("1", "1 while the ground holds the point in one place, else 0.")
-    anchor = Output("m", "Where it holds it.")
+    sticks = Output("1", "1 while the point sticks, else 0.")
+    anchor = Output("m", "Position at which the point sticks.")
     spring = Output("N", "Normal force without velocity.")
     shear_spring = Output("N", "Shear force without velocity.")
     drag = Output("N s/m", "Damping along the ground.")
@@ -131,7 +137,7 @@ class Geyer2010(Component):
             y.shear_spring = -stiffness * shift
             y.drag = stiffness * abs(shift) / p.shear_velocity
         elif y.in_contact == 1:
-            # Coulomb's force as a damper, which at the end of the step can brake but not reverse.
+            # Coulomb friction as an implicit damper: it can stop the point at the end of the step, but not reverse it.
             y.drag = p.sliding_friction * y.force / max(abs(y.slip_velocity), p.sticking_velocity)
         y.energy = 0.5 * (y.spring * depth + stiffness * shift**2 * y.in_contact)
 

@@ -4,24 +4,24 @@ from gaitsim.component import Attachment, Component, Curve, Input, Output, Param
 
 
 class HuntCrossley(Component):
-    """A sphere of Hertz with the dissipation of Hunt & Crossley against the ground, and friction without stiction.
+    """Contact of a sphere with the ground: Hertz stiffness, Hunt-Crossley dissipation, friction without stiction.
 
-    F = 4/3 s sqrt(R) (d/2)^1.5 (1 + 1.5 c d'), never pulling, for two equal materials of stiffness s.
-    Friction: F (min(v/v_t, 1) (mu_d + 2 (mu_s - mu_d) / (1 + (v/v_t)^2)) + mu_v v). The smooth law blends contact in
-    and out with hyperbolic tangents; it has a small force above the ground too.
+    F = 4/3 s sqrt(R) (d/2)^1.5 (1 + 1.5 c d'), never negative, for two equal materials of stiffness s.
+    Friction: F (min(v/v_t, 1) (mu_d + 2 (mu_s - mu_d) / (1 + (v/v_t)^2)) + mu_v v). The smooth law begins and ends
+    contact with hyperbolic tangents; it has a small force above the ground too.
 
-    Its velocity terms are solved for the velocity at the end of the step. The forces that go out are those of this
-    instant. A velocity of semi-implicit steps is that of half a step ago, so the normal force takes it half a step
-    further. What really acted goes out as well, for the balance of energy.
+    The velocity terms are solved implicitly, for the velocity at the end of the step. The output forces are those of
+    the present instant. Semi-implicit steps give the velocity of half a step ago; the normal force extrapolates it by
+    half a step. The forces that acted in the previous step are outputs too, for the energy balance.
     """
 
     frame = Attachment("The center of the sphere.")
     smooth = Parameter(
         "1",
-        "1 for the smooth law, 0 for the plain one.",
+        "1 for the smooth law, 0 for the law of Hunt & Crossley.",
         default=0,
         bounds=(0, 1),
-        source="definition: the law as Hunt & Crossley have it",
+        source="definition: the original law",
     )
     radius = Parameter(
         "m",
@@ -37,13 +37,19 @@ class HuntCrossley(Component):
         bounds=(1, 1e12),
         source="geijtenbeek2019: H0914",
     )
-    dissipation = Parameter("s/m", "c.", default=1, bounds=(0, 100), source="geijtenbeek2019: model H0914")
-    static_friction = Parameter("1", "mu_s.", default=0.9, bounds=(0, 10), source="geijtenbeek2019: model H0914")
-    dynamic_friction = Parameter("1", "mu_d.", default=0.8, bounds=(0, 10), source="geijtenbeek2019: model H0914")
-    viscous_friction = Parameter("s/m", "mu_v.", default=0.6, bounds=(0, 10), source="geijtenbeek2019: model H0914")
+    dissipation = Parameter("s/m", "c: dissipation.", default=1, bounds=(0, 100), source="geijtenbeek2019: model H0914")
+    static_friction = Parameter(
+        "1", "mu_s: static friction.", default=0.9, bounds=(0, 10), source="geijtenbeek2019: model H0914"
+    )
+    dynamic_friction = Parameter(
+        "1", "mu_d: dynamic friction.", default=0.8, bounds=(0, 10), source="geijtenbeek2019: model H0914"
+    )
+    viscous_friction = Parameter(
+        "s/m", "mu_v: viscous friction.", default=0.6, bounds=(0, 10), source="geijtenbeek2019: model H0914"
+    )
     transition_velocity = Parameter(
         "m/s",
-        "v_t: slip at which friction is highest.",
+        "v_t: slip velocity at which friction is largest.",
         default=0.1,
         bounds=(1e-4, 10),
         source="geijtenbeek2019: model H0914",
@@ -76,26 +82,26 @@ class HuntCrossley(Component):
         reads=(("ground_height", "height"),),
         sends=(("position", "position"),),
     )
-    ground_height = Input("m", "Height of the ground where the sphere is.", default=0)
-    stepped = State(levels=("no", "yes"), doc="Whether there is a step before.")
+    ground_height = Input("m", "Height of the ground below the sphere.", default=0)
+    stepped = State(levels=("no", "yes"), doc="No in the first step, yes afterwards.")
     spring_before = State("N", "Normal force without velocity, one step ago.")
     drag_before = State("N s/m", "Damping along the ground, one step ago.")
     velocity_before = State("m/s", "Velocity of the center, one step ago.")
-    position = Output("m", "Where the sphere's center is along the ground.")
+    position = Output("m", "Position of the sphere's center along the ground.")
     center_height = Output("m", "Height of the sphere's center.")
-    velocity = Output("m/s", "Its rate.")
+    velocity = Output("m/s", "Upward velocity of the sphere's center.")
     slip_velocity = Output("m/s", "Forward velocity of the sphere's lowest point.")
     height = Output(
         "m", "Height of the sphere's lowest point above the ground.", usual=(-0.03, 100), possible=(-0.3, 1e4)
     )
-    weight = Output("N", "Weight of all that moves.")
+    weight = Output("N", "Weight of the whole model.")
     spring = Output("N", "Normal force without velocity.")
     drag = Output("N s/m", "Damping along the ground.")
     force = Output("N", "Force of the ground on the sphere, along the ground's normal.")
     friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground.")
-    applied_force = Output("N", "Normal force that acted in the step before.")
-    applied_friction_force = Output("N", "Friction force that acted in the step before.")
-    load = Output("1", "Force in weights of all that moves.", usual=(0, 3), possible=(0, 20))
+    applied_force = Output("N", "Normal force that acted in the previous step.")
+    applied_friction_force = Output("N", "Friction force that acted in the previous step.")
+    load = Output("1", "Force in body weights.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, 2/5 d F at rest.")
 

@@ -6,14 +6,13 @@ from gaitsim.component import Attachment, Component, Input, Option, Output, Para
 class Mujoco(Component):
     """MuJoCo's own contact: a sphere at a point of a body against the ground, with friction.
 
-    It has no force law in N/m: depth and rate of closing set an acceleration, so penetration does
-    not depend on mass. Its force comes from the solver after all outputs: what is read is one
-    step old.
+    It has no stiffness in N/m. Depth and closing velocity set an acceleration, so the depth does not depend on mass.
+    The solver computes the force after all outputs, so the force that is read is one step old.
     """
 
     frame = Attachment("The center of the sphere.")
     law = Option(
-        "Which pair says how a depth is closed: time constant and damping ratio, or stiffness and damping.",
+        "Parameters of the constraint: time constant and damping ratio, or stiffness and damping.",
         choices=("time_constant", "stiffness"),
         default="time_constant",
     )
@@ -67,21 +66,21 @@ class Mujoco(Component):
         reads=(("ground_height", "height"), ("ground_slope", "slope")),
         sends=(("position", "position"),),
     )
-    ground_height = Input("m", "Height of the ground where the sphere is.", default=0)
-    ground_slope = Input("rad", "By how much the ground rises forwards.", default=0)
-    position = Output("m", "Where the sphere's center is along the ground.")
+    ground_height = Input("m", "Height of the ground below the sphere.", default=0)
+    ground_slope = Input("rad", "Slope of the ground in the forward direction.", default=0)
+    position = Output("m", "Position of the sphere's center along the ground.")
     center_height = Output("m", "Height of the sphere's center.")
     height = Output(
         "m", "Height of the sphere's lowest point above the ground.", usual=(-0.03, 100), possible=(-0.3, 1e4)
     )
-    weight = Output("N", "Weight of all that moves.")
+    weight = Output("N", "Weight of the whole model.")
     pushed_forwards = Output("N", "Forward force of the sphere on the ground, in the world.")
     pushed_upwards = Output("N", "Upward force of the sphere on the ground, in the world.")
     force = Output("N", "Force of the ground on the sphere, along the ground's normal; one step old.")
     friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground; one step old.")
-    load = Output("1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20))
+    load = Output("1", "Force in body weights; one step old.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
-    energy = Output("J", "Elastic energy as of a linear spring, force times depth / 2; one step old.")
+    energy = Output("J", "Elastic energy, computed as that of a linear spring: force times depth / 2; one step old.")
 
     largest_step = StepLimit(
         "ms",

@@ -4,14 +4,14 @@ from gaitsim.component import Attachment, Component, Curve, Input, Output, Param
 
 
 class SpatialHuntCrossley(Component):
-    """A sphere against the ground in space: the force of Hunt & Crossley, and friction in both directions along it.
+    """Contact of a sphere with the ground in space: Hunt-Crossley normal force, and friction in both directions.
 
-    F = (k d)^1.5 (1 + 1.5 c d'), never pulling, as in the open models of SCONE; the radius of the sphere is part of
+    F = (k d)^1.5 (1 + 1.5 c d'), never negative, as in the public models of SCONE; the radius of the sphere is part of
     k: two equal materials of k = (4/3 s sqrt(R))^(2/3) make k / 2 (OpenSim's stiffness s). Friction is against the
     slip: F (min(v/v_t, 1) (mu_d + 2 (mu_s - mu_d) / (1 + (v/v_t)^2)) + mu_v v), of the speed v of the lowest point.
 
-    Its velocity terms are solved for the velocity at the end of the step. The forces that go out are those
-    that acted in the step before.
+    The velocity terms are solved implicitly, for the velocity at the end of the step. The output forces are those of
+    the previous step.
     """
 
     frame = Attachment("The center of the sphere.")
@@ -25,13 +25,19 @@ class SpatialHuntCrossley(Component):
         bounds=(1, 1e7),
         source="sconemodels: model H1922, half of the 11006.4 of either material",
     )
-    dissipation = Parameter("s/m", "c.", default=1, bounds=(0, 100), source="sconemodels: model H1922")
-    static_friction = Parameter("1", "mu_s.", default=0.9, bounds=(0, 10), source="sconemodels: model H1922")
-    dynamic_friction = Parameter("1", "mu_d.", default=0.6, bounds=(0, 10), source="sconemodels: model H1922")
-    viscous_friction = Parameter("s/m", "mu_v.", default=0, bounds=(0, 10), source="sconemodels: model H1922 has none")
+    dissipation = Parameter("s/m", "c: dissipation.", default=1, bounds=(0, 100), source="sconemodels: model H1922")
+    static_friction = Parameter(
+        "1", "mu_s: static friction.", default=0.9, bounds=(0, 10), source="sconemodels: model H1922"
+    )
+    dynamic_friction = Parameter(
+        "1", "mu_d: dynamic friction.", default=0.6, bounds=(0, 10), source="sconemodels: model H1922"
+    )
+    viscous_friction = Parameter(
+        "s/m", "mu_v: viscous friction.", default=0, bounds=(0, 10), source="sconemodels: model H1922 has none"
+    )
     transition_velocity = Parameter(
         "m/s",
-        "v_t: slip at which friction is highest.",
+        "v_t: slip velocity at which friction is largest.",
         default=0.15,
         bounds=(1e-4, 10),
         source="sconemodels: simulations of H1922 and H0918",
@@ -43,26 +49,26 @@ class SpatialHuntCrossley(Component):
         reads=(("ground_height", "height"),),
         sends=(("position", "position"),),
     )
-    ground_height = Input("m", "Height of the ground where the sphere is.", default=0)
-    stepped = State(levels=("no", "yes"), doc="Whether there is a step before.")
+    ground_height = Input("m", "Height of the ground below the sphere.", default=0)
+    stepped = State(levels=("no", "yes"), doc="No in the first step, yes afterwards.")
     spring_before = State("N", "Normal force without velocity, one step ago.")
     drag_before = State("N s/m", "Damping along the ground, one step ago.")
-    position = Output("m", "Where the sphere's center is along the ground, forwards.")
-    side_position = Output("m", "Where the sphere's center is along the ground, to the left.")
+    position = Output("m", "Forward position of the sphere's center along the ground.")
+    side_position = Output("m", "Position of the sphere's center along the ground, to the left.")
     center_height = Output("m", "Height of the sphere's center.")
-    velocity = Output("m/s", "Its rate.")
+    velocity = Output("m/s", "Upward velocity of the sphere's center.")
     slip_velocity = Output("m/s", "Velocity of the sphere's lowest point along the ground, forwards.")
     side_slip_velocity = Output("m/s", "Velocity of the sphere's lowest point along the ground, to the left.")
     height = Output(
         "m", "Height of the sphere's lowest point above the ground.", usual=(-0.03, 100), possible=(-0.3, 1e4)
     )
-    weight = Output("N", "Weight of all that moves.")
+    weight = Output("N", "Weight of the whole model.")
     spring = Output("N", "Normal force without velocity.")
     drag = Output("N s/m", "Damping along the ground.")
     force = Output("N", "Force of the ground on the sphere, along the ground's normal; one step old.")
     friction_force = Output("N", "Force of the ground on the sphere along the ground, forwards; one step old.")
     side_force = Output("N", "Force of the ground on the sphere along the ground, to the left; one step old.")
-    load = Output("1", "Force in weights of all that moves; one step old.", usual=(0, 3), possible=(0, 20))
+    load = Output("1", "Force in body weights; one step old.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, 2/5 d F at rest.")
 

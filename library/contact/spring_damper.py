@@ -4,13 +4,12 @@ from gaitsim.component import Attachment, Component, Curve, Input, Output, Param
 class SpringDamper(Component):
     """A spring and a damper side by side under one point of a body, along the ground's normal.
 
-    F = k d + b d', never negative: the ground does not pull. No friction; where a point may
-    slip, another contact is needed.
+    F = k d + b d', never negative. It has no friction, so it suits points that do not move along the ground.
     """
 
     frame = Attachment("The point that touches the ground.")
-    stiffness = Parameter("N/m", "k.", bounds=(1, 1e8))
-    damping = Parameter("N s/m", "b.", bounds=(0, 1e6))
+    stiffness = Parameter("N/m", "k: stiffness.", bounds=(1, 1e8))
+    damping = Parameter("N s/m", "b: damping.", bounds=(0, 1e6))
     terrain = Part(
         "terrain",
         "The ground.",
@@ -18,21 +17,21 @@ class SpringDamper(Component):
         reads=(("ground_height", "height"),),
         sends=(("position", "position"),),
     )
-    ground_height = Input("m", "Height of the ground where the point is.", default=0)
-    position = Output("m", "Where the point is along the ground.")
+    ground_height = Input("m", "Height of the ground below the point.", default=0)
+    position = Output("m", "Position of the point along the ground.")
     height = Output("m", "Height of the point.", usual=(-0.03, 100), possible=(-0.3, 1e4))
     velocity = Output("m/s", "Upward velocity of the point.")
-    weight = Output("N", "Weight of all that moves.")
+    weight = Output("N", "Weight of the whole model.")
     force = Output("N", "Force of the ground on the point, upwards.")
-    friction_force = Output("N", "Force along the ground: none.")
-    load = Output("1", "Force in weights of all that moves; 0 without gravity.", usual=(0, 3), possible=(0, 20))
+    friction_force = Output("N", "Force along the ground; always 0.")
+    load = Output("1", "Force in body weights; 0 without gravity.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the point is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy in the ground, k d^2 / 2.")
 
     largest_step = StepLimit(
         "ms",
         "80 kg on a foot of 1.25 kg landing on its heel at 0.5 m/s, 78 kN/m and 500 N s/m: peak force within 1 % of "
-        "that at 0.02 ms. It is explicit: with mass m at the point it needs steps well below 2 m / b.",
+        "that at 0.02 ms. The force is explicit: with a mass m at the point, steps must be well below 2 m / b.",
         0.5,
     )
 

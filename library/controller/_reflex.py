@@ -19,5 +19,5 @@ UPPER = Parameter(
 
 
 def gated(wanted, gate, lower, upper):
-    """The wanted stimulation, clamped to [lower, upper], times the gate."""
+    """Stimulation, clamped to [lower, upper] and multiplied by the gate."""
     return gate * max(lower, min(upper, wanted))

@@ -18,26 +18,26 @@ class AngleReflex(Component):
         bounds=(-100, 100),
         source="geyer2010, lean at take-off",
     )
-    reference = Parameter("rad", "phi_ref: angle without effect.", bounds=(-6.3, 6.3))
+    reference = Parameter("rad", "phi_ref: angle at which the reflex adds nothing.", bounds=(-6.3, 6.3))
     bias = Parameter(
         "1",
         "S_0: stimulation at phi_ref.",
         default=0,
         bounds=(-1, 1),
-        source="definition: added to another reflex, which has S_0",
+        source="definition: usually added to another reflex that has S_0",
     )
     lower = LOWER
     upper = UPPER
     angle = Input("rad", "Angle of a joint or a segment.")
-    angular_velocity = Input("rad/s", "Its rate.", default=0)
-    gate = Input("1", "1 lets the reflex through, 0 leaves nothing.", default=1)
+    angular_velocity = Input("rad/s", "Angular velocity of the same joint or segment.", default=0)
+    gate = Input("1", "1 enables the reflex; 0 disables it.", default=1)
     stimulation = Output("1", "Contribution to the muscle's excitation.")
 
     answer = Curve(
         "stimulation",
         "angle",
         (-0.3, 0.5),
-        "Stimulation over the angle: the paper's lean at take-off.",
+        "Stimulation over the angle, with the paper's gain for the lean at take-off.",
         at={"proportional": 1.15, "reference": 0.105},
     )
 

@@ -2,12 +2,12 @@ from gaitsim.component import Component, Input, Output, Parameter, State
 
 
 class Clock(Component):
-    """A phase that runs from 0 to 1 and begins anew, after each period and at each event.
+    """A phase that runs from 0 to 1 and restarts after each period and at each event.
 
-    Without an event it is a rhythm of its own; with a touchdown it is the phase of the stride since then.
+    Without events it is a free-running rhythm. With touchdowns as events it is the phase of the stride.
     """
 
-    period = Parameter("s", "Time from 0 to 1.", bounds=(1e-3, 1e4))
+    period = Parameter("s", "Duration of a cycle.", bounds=(1e-3, 1e4))
     first_phase = Parameter(
         "1",
         "Phase at the start and at an event.",

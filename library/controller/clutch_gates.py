@@ -2,10 +2,10 @@ from gaitsim.component import Component, Input, Output, Parameter, State
 
 
 class ClutchGates(Component):
-    """When the clutches of a leg of the Endo-Herr type are engaged: by its phase, its direction and its knee.
+    """Gates of the clutches in a leg of the Endo-Herr type, from leg phase, leg direction and knee angle.
 
-    Endo & Herr (2009) let the state of the joints engage and release clutches; their rules are not to be read,
-    and these are our own. The leg's direction is a = phi_hip - phi_knee / 2, which is 90 deg if the leg is under an
+    Endo & Herr (2009) engage and release clutches by the state of the joints. Their rules are not published, so these
+    rules are our own. The leg's direction is a = phi_hip - phi_knee / 2, which is 90 deg if the leg is under an
     upright trunk, and less in front of it; all angles grow in extension (Geyer & Herr 2010).
 
     vastus: in stance, until the other leg has landed. gastrocnemius: in stance beyond a direction. rectus femoris:

@@ -2,7 +2,7 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, State
 
 
 class Engagement(Component):
-    """Engages a clutch at a phase of each cycle, and releases it once its spring has given back what it took.
+    """Engages a clutch at a phase of each cycle, and releases it once its spring has returned its energy.
 
     Endo et al. (2006) fitted the instants of engagement to a recorded walk.
     """
@@ -13,7 +13,7 @@ class Engagement(Component):
 
     before = State("1", "Phase one step ago.")
     engaged = State(levels=("no", "yes"), doc="Whether the clutch is engaged.")
-    stretched = State(levels=("no", "yes"), doc="Whether its spring has been stretched since then.")
+    stretched = State(levels=("no", "yes"), doc="Whether its spring has been stretched since the clutch engaged.")
 
     gate = Output("1", "1 while the clutch is engaged.")
 

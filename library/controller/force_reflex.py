@@ -11,12 +11,14 @@ class ForceReflex(Component):
     """
 
     gain = Parameter("1", "G: stimulation per F_max; negative inhibits.", bounds=(-10, 10))
-    offset = Parameter("1", "F_off: force without effect, in F_max.", default=0, bounds=(-10, 10), source="geyer2010")
+    offset = Parameter(
+        "1", "F_off: force at which the reflex adds nothing, in F_max.", default=0, bounds=(-10, 10), source="geyer2010"
+    )
     bias = Parameter("1", "S_0: stimulation at F_off.", default=0.01, bounds=(-1, 1), source="geyer2010")
     lower = LOWER
     upper = UPPER
     signal = Input("1", "Normalized force of a muscle, in F_max.")
-    gate = Input("1", "1 lets the reflex through, 0 leaves nothing, not even S_0.", default=1)
+    gate = Input("1", "1 enables the reflex; 0 disables it, including S_0.", default=1)
     stimulation = Output("1", "Contribution to the muscle's excitation.")
 
     answer = Curve("stimulation", "signal", (0, 1.5), "Stimulation over the force, G = 1.2.", at={"gain": 1.2})

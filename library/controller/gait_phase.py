@@ -2,18 +2,18 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, State
 
 
 def begins(before, now):
-    """1 in the instant after a condition has come true, else 0."""
+    """1 in the instant after a condition becomes true, else 0."""
     return 1.0 if now and not before else 0.0
 
 
 class GaitPhase(Component):
-    """Whether a leg swings or stands, and whether it is the one behind while both stand.
+    """Phase of a leg: swing, stance, or trailing leg in double support.
 
-    swing -> stance when its own load exceeds the threshold; stance -> trailing when the other leg lands
-    after it; trailing -> stance if the other leg lifts off again; any -> swing when its own load is
-    gone. Trailing is the double support (DSup) of Geyer & Herr (2010). Two legs that land in one step
-    trail neither. A phase is known one step after the loads that decide it. A leg that is said to stand at
-    the start (`initial: {<address>.phase: 1}`) stands until it has been loaded and unloaded.
+    swing -> stance when the load on the leg exceeds the threshold; stance -> trailing when the other leg lands
+    later; trailing -> stance if the other leg lifts off again; any -> swing when the load on the leg
+    ends. Trailing is the double support (DSup) of Geyer & Herr (2010). If both legs land in the
+    same step, neither trails. The phase is known one step after the loads that determine it. A leg that starts
+    in stance (`initial: {<address>.phase: 1}`) stands until it has been loaded and unloaded.
     """
 
     threshold = Parameter(

@@ -2,7 +2,7 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter
 
 
 class JointReflex(Component):
-    """Stimulation against a joint that is beyond an angle and still leaves: S = G |phi - phi_off|, gated.
+    """Stimulation while a joint is beyond an angle and moves further away from it: S = G |phi - phi_off|, gated.
 
     The knee of Geyer & Herr (2010): the vasti lose k_phi (phi_k - phi_k,off) while phi_k > phi_k,off
     and phi_k' > 0, which is a gain of -k_phi. Where the joint's angle falls as the knee extends,
@@ -10,7 +10,7 @@ class JointReflex(Component):
     """
 
     gain = Parameter("1/rad", "G: stimulation per angle beyond the offset; negative inhibits.", bounds=(-100, 100))
-    offset = Parameter("rad", "phi_off: where the reflex begins.", bounds=(-6.3, 6.3))
+    offset = Parameter("rad", "phi_off: angle at which the reflex begins.", bounds=(-6.3, 6.3))
     direction = Parameter(
         "1",
         "1: acts above the offset while the angle grows; -1: below it while the angle falls.",
@@ -20,14 +20,14 @@ class JointReflex(Component):
     )
     angle = Input("rad", "Angle of the joint.")
     angular_velocity = Input("rad/s", "Its rate.")
-    gate = Input("1", "1 lets the reflex through, 0 leaves nothing.", default=1)
+    gate = Input("1", "1 enables the reflex; 0 disables it.", default=1)
     stimulation = Output("1", "Contribution to the muscle's excitation.")
 
     answer = Curve(
         "stimulation",
         "angle",
         (2.6, 3.3),
-        "The knee of the paper on the vasti, while it extends and while it bends.",
+        "Effect of the paper's knee angle on the vasti, while the knee extends and while it flexes.",
         at={"gain": -2, "offset": 2.97},
         each=("angular_velocity", (1, -1)),
     )

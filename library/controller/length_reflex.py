@@ -8,15 +8,15 @@ class LengthReflex(Component):
 
     The tibialis anterior of Geyer & Herr (2010): S_TA = S_0 + G_TA (l_TA(t - 20 ms) - l_off,TA).
     The paper's table shows no clamp; in its author's release of 2006 the stretch l - l_off is never below 0,
-    which is `least: 0`. Without it a fiber shorter than l_off takes stimulation away.
+    which is `least: 0`. Without it a fiber shorter than l_off reduces the stimulation.
     """
 
     gain = Parameter("1", "G: stimulation per l_opt; negative inhibits.", bounds=(-10, 10))
-    offset = Parameter("1", "l_off: length without effect, in l_opt.", bounds=(-10, 10))
+    offset = Parameter("1", "l_off: length at which the reflex adds nothing, in l_opt.", bounds=(-10, 10))
     bias = Parameter("1", "S_0: stimulation at l_off.", default=0.01, bounds=(-1, 1), source="geyer2010")
     least = Parameter(
         "1",
-        "The least that the length adds; 0 if a fiber shorter than l_off shall have no effect.",
+        "Lower bound of l - l_off; 0 if a fiber shorter than l_off shall have no effect.",
         default=-1e6,
         bounds=(-1e6, 0),
         source="definition: a fiber shorter than l_off inhibits",
@@ -24,7 +24,7 @@ class LengthReflex(Component):
     lower = LOWER
     upper = UPPER
     signal = Input("1", "Normalized fiber length of a muscle, in l_opt.")
-    gate = Input("1", "1 lets the reflex through, 0 leaves nothing, not even S_0.", default=1)
+    gate = Input("1", "1 enables the reflex; 0 disables it, including S_0.", default=1)
     stimulation = Output("1", "Contribution to the muscle's excitation.")
 
     answer = Curve(

@@ -2,12 +2,12 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter
 
 
 def hat(phase, corner):
-    """1 at a corner of eight, falling to 0 at its neighbours; the cycle is closed."""
+    """Weight of one of eight values: 1 at its phase, linearly to 0 at its neighbours, around the cycle."""
     return max(0.0, 1 - 8 * abs((phase - corner / 8 + 0.5) % 1 - 0.5))
 
 
 class LinearProfile(Component):
-    """Stimulation without feedback: straight lines between eight values over the phase of a cycle, gated."""
+    """Feedforward stimulation: linear interpolation of eight values over the phase of a cycle, gated."""
 
     value_0 = Parameter("1", "Stimulation at phase 0, and at 1.", bounds=(-1, 1))
     value_1 = Parameter("1", "Stimulation at phase 1/8.", bounds=(-1, 1))
@@ -18,7 +18,7 @@ class LinearProfile(Component):
     value_6 = Parameter("1", "Stimulation at phase 6/8.", bounds=(-1, 1))
     value_7 = Parameter("1", "Stimulation at phase 7/8.", bounds=(-1, 1))
     phase = Input("1", "Phase of the cycle, from 0 to 1.")
-    gate = Input("1", "1 lets the stimulation through, 0 leaves nothing.", default=1)
+    gate = Input("1", "1 enables the stimulation; 0 disables it.", default=1)
     stimulation = Output("1", "Contribution to the muscle's excitation.")
 
     lines = Curve(

@@ -10,11 +10,15 @@ class MuscleFeedback(Component):
 
     gain = Parameter("1", "Gain G per unit of the normalized signal.", bounds=(-100, 100))
     offset = Parameter(
-        "1", "P_0: signal without effect.", default=0, bounds=(-10, 10), source="geyer2003, force feedback"
+        "1",
+        "P_0: signal at which the feedback adds nothing.",
+        default=0,
+        bounds=(-10, 10),
+        source="geyer2003, force feedback",
     )
     bias = Parameter("1", "STIM_0: stimulation without feedback.", default=0.01, bounds=(0, 1), source="geyer2003")
     signal = Input("1", "Normalized force, fiber length or fiber velocity.")
-    gate = Input("1", "1 lets the feedback through, 0 leaves the bias.", default=1)
+    gate = Input("1", "1 enables the feedback; at 0 only the bias remains.", default=1)
     stimulation = Output("1", "Contribution to the muscle's excitation.")
 
     answer = Curve(

@@ -2,12 +2,12 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, Refuse
 
 
 class PhaseWindow(Component):
-    """A gate that is open from one phase of a cycle to another, also past its end."""
+    """A gate that is open from one phase of a cycle to another, also across the end of the cycle."""
 
-    begins = Parameter("1", "Phase at which it opens.", bounds=(0, 1))
-    ends = Parameter("1", "Phase at which it closes.", bounds=(0, 1))
+    begins = Parameter("1", "Phase at which the gate opens.", bounds=(0, 1))
+    ends = Parameter("1", "Phase at which the gate closes.", bounds=(0, 1))
     phase = Input("1", "Phase of the cycle, from 0 to 1.")
-    gate = Output("1", "1 while it is open.")
+    gate = Output("1", "1 while the gate is open.")
 
     window = Curve(
         "gate", "phase", (0, 1), "The gate, open over the end of the cycle.", at={"begins": 0.8, "ends": 0.3}

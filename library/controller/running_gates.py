@@ -2,7 +2,7 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 class RunningGates(Component):
-    """Which laws of a running leg are open: its phases after Wang et al. (2012).
+    """Gates of the control laws of a running leg, from its phases (Wang et al. 2012).
 
     d is the distance of the foot behind the body's center of mass in leg lengths; in front it is negative. Stance
     has two further laws: the trunk's balance until the other leg has landed in front, and the initiation of swing once
@@ -11,21 +11,23 @@ class RunningGates(Component):
     augmented-neuromuscular-RT-running, MIT).
     """
 
-    leg_length = Parameter("m", "Length of the leg, in which d is counted.", bounds=(0.01, 10))
-    initiation_distance = Parameter("1", "d_si: foot behind beyond which swing is initiated.", bounds=(-2, 2))
-    preparation_distance = Parameter("1", "d_sp: below it the leg in swing prepares to stand.", bounds=(-2, 2))
+    leg_length = Parameter("m", "Length of the leg, the unit of d.", bounds=(0.01, 10))
+    initiation_distance = Parameter("1", "d_si: distance beyond which swing is initiated.", bounds=(-2, 2))
+    preparation_distance = Parameter(
+        "1", "d_sp: distance below which the leg in swing prepares stance.", bounds=(-2, 2)
+    )
     center = Input("m", "Forward position of the body's center of mass.")
     foot = Input("m", "Forward position of the foot.")
     in_stance = Input("1", "1 while the leg stands.")
     in_double_support = Input("1", "1 while both legs stand and the other landed last.")
-    distance = Output("1", "d: how far the foot is behind the center of mass, in leg lengths.")
+    distance = Output("1", "d: distance of the foot behind the center of mass, in leg lengths.")
     stance = Output("1", "1 while the leg stands.")
     balance = Output("1", "1 in stance until the other leg has landed.")
-    trailing = Output("1", "1 in stance from then on.")
-    initiation = Output("1", "1 in stance while swing is initiated.")
+    trailing = Output("1", "1 in stance once the other leg has landed.")
+    initiation = Output("1", "1 in stance during swing initiation.")
     swing = Output("1", "1 in swing.")
     early_swing = Output("1", "1 in swing until the preparation.")
-    preparation = Output("1", "1 in swing while stance is prepared.")
+    preparation = Output("1", "1 in swing during preparation of stance.")
 
     @staticmethod
     def output(p, u, x, y):

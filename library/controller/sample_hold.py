@@ -2,12 +2,12 @@ from gaitsim.component import Component, Input, Output, State
 
 
 class SampleHold(Component):
-    """Holds what a signal was at the last event; before the first one, what it was at the start."""
+    """Holds the value of a signal at the last event; before the first event, its value at the start."""
 
     signal = Input("*", "Any signal.")
     event = Input("1", "1 in the instant of the event, else 0.")
     kept = State("*", "The signal at the last event.")
-    held = Output("*", "The signal at the last event; in the instant of an event, that of now.")
+    held = Output("*", "The signal at the last event; in the instant of an event, its present value.")
 
     @staticmethod
     def start(p, u, x):

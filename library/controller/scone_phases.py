@@ -4,7 +4,7 @@ EARLY_STANCE, LATE_STANCE, LIFTOFF, SWING, LANDING = 0, 1, 2, 3, 4
 
 
 def first_phase(stands, behind, past, ahead):
-    """The phase of a leg of which nothing is known but where it is and what it bears."""
+    """The phase of a leg at the start, from its position and load alone."""
     if stands:
         return LIFTOFF if behind else (LATE_STANCE if past else EARLY_STANCE)
     return LANDING if ahead else SWING
@@ -27,11 +27,11 @@ def air_phase(phase, stands, leads, ahead):
 class SconePhases(Component):
     """The five phases of a leg in SCONE: early and late stance, lift-off, swing, landing.
 
-    They follow from the loads on both legs and from how far the feet are in front of the hip. Early stance
-    becomes late stance once the foot is behind a place; stance becomes lift-off once the other foot stands
-    in front (or the own foot is far behind); lift-off becomes swing when the load is gone; swing becomes
-    landing once the foot is in front of a place; and that early stance when the foot bears load. A foot
-    that scuffs while it is behind the other stays in swing. A phase is known one step after what decides it.
+    They follow from the loads on both legs and from the positions of the feet in front of the hip. Early stance
+    becomes late stance once the foot is behind a place; stance becomes lift-off once the other foot stands in front
+    (or the own foot is far behind); lift-off becomes swing when the load is gone; swing becomes landing once the foot
+    is in front of a place; and that early stance when the foot bears load. A foot that scuffs while it is behind the
+    other stays in swing. The phase is known one step after the signals that determine it.
     """
 
     stance_load = Parameter(
@@ -41,22 +41,34 @@ class SconePhases(Component):
         "1", "Load at which lift-off ends, in body weights.", default=0.1, bounds=(0, 1), source="geijtenbeek2019"
     )
     late_stance_position = Parameter(
-        "m", "Foot behind this place: late stance.", default=0, bounds=(-1, 1), source="geijtenbeek2019"
+        "m",
+        "Late stance begins when the foot is behind this position.",
+        default=0,
+        bounds=(-1, 1),
+        source="geijtenbeek2019",
     )
     liftoff_position = Parameter(
-        "m", "Foot behind this place: lift-off.", default=-1, bounds=(-2, 1), source="geijtenbeek2019: out of reach"
+        "m",
+        "Lift-off begins when the foot is behind this position.",
+        default=-1,
+        bounds=(-2, 1),
+        source="geijtenbeek2019: out of reach",
     )
     landing_position = Parameter(
-        "m", "Foot in front of this place: landing.", default=0, bounds=(-1, 1), source="geijtenbeek2019"
+        "m",
+        "Landing begins when the foot is in front of this position.",
+        default=0,
+        bounds=(-1, 1),
+        source="geijtenbeek2019",
     )
     load = Input("1", "Load on this leg in body weights.")
     opposite_load = Input("1", "Load on the other leg in body weights.")
-    position = Input("m", "How far the foot is in front of the hip.")
-    opposite_position = Input("m", "How far the other foot is in front of the hip.")
+    position = Input("m", "Position of the foot in front of the hip.")
+    opposite_position = Input("m", "Position of the other foot in front of the hip.")
     phase = State(levels=("early_stance", "late_stance", "liftoff", "swing", "landing"), doc="Phase of the leg.")
     lifted = State("1", "1 in the instant after lift-off has ended.")
     landed = State("1", "1 in the instant after landing has ended.")
-    early_stance = Output("1", "1 in early stance; gates other parts, like all of these.")
+    early_stance = Output("1", "1 in early stance; this and the following outputs gate other parts.")
     late_stance = Output("1", "1 in late stance.")
     liftoff = Output("1", "1 in lift-off.")
     swing = Output("1", "1 in swing.")
@@ -71,7 +83,7 @@ class SconePhases(Component):
         "in_stance",
         "time",
         (0, 1),
-        "Stance, from load and place of the foot.",
+        "Stance, from load and position of the foot.",
         steps={"load": (1, 1, 1, 0, 0), "position": (0.3, -0.1, -0.3, -0.1, 0.3), "opposite_load": (0, 0, 1, 1, 1)},
     )
     lifting = Curve(

@@ -2,7 +2,7 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter
 
 
 class TrunkBalance(Component):
-    """Keeps the trunk at its lean with the hip of the leg that bears it (Geyer & Herr 2010).
+    """Keeps the trunk at a reference lean by the hip muscles of the loaded leg (Geyer & Herr 2010).
 
     E = c k_p (theta - theta_ref) + k_d theta', times k_bw |F_ipsi|: its positive part extends the hip
     (hamstrings, glutei), the magnitude of its negative part flexes it (hip flexors).
@@ -20,15 +20,19 @@ class TrunkBalance(Component):
         "s/rad", "k_d: stimulation per rate of the lean.", default=0.25, bounds=(0, 100), source="geyer2010"
     )
     reference = Parameter(
-        "rad", "theta_ref: lean without effect.", default=0.105, bounds=(-1.6, 1.6), source="geyer2010"
+        "rad",
+        "theta_ref: lean at which the reflex adds nothing.",
+        default=0.105,
+        bounds=(-1.6, 1.6),
+        source="geyer2010",
     )
     load_gain = Parameter(
         "1", "k_bw: effect per body weight on the leg.", default=1.2, bounds=(0, 10), source="geyer2010"
     )
     pitch = Input("rad", "Lean of the trunk, theta; forwards is positive.")
-    pitch_rate = Input("rad/s", "Its rate.")
+    pitch_rate = Input("rad/s", "Rate of the lean.")
     load = Input("1", "Load on the leg in body weights, |F_ipsi|.")
-    gate = Input("1", "1 lets the reflex through, 0 leaves nothing.", default=1)
+    gate = Input("1", "1 enables the reflex; 0 disables it.", default=1)
     forward = Output("1", "Stimulation against a forward lean, for muscles that extend the hip.")
     backward = Output("1", "Stimulation against a backward lean, for muscles that flex the hip.")
 

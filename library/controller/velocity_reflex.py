@@ -13,7 +13,7 @@ class VelocityReflex(Component):
     gain = Parameter("1", "G: stimulation per v_max; negative inhibits.", bounds=(-100, 100))
     offset = Parameter(
         "1",
-        "v_off: velocity without effect, in v_max.",
+        "v_off: velocity at which the reflex adds nothing, in v_max.",
         default=0,
         bounds=(-10, 10),
         source="definition: a fiber at rest",
@@ -23,12 +23,12 @@ class VelocityReflex(Component):
         "S_0: stimulation at v_off.",
         default=0,
         bounds=(-1, 1),
-        source="definition: added to another reflex, which has S_0",
+        source="definition: usually added to another reflex that has S_0",
     )
     lower = LOWER
     upper = UPPER
     signal = Input("1", "Normalized fiber velocity of a muscle, in v_max; shortening is negative.")
-    gate = Input("1", "1 lets the reflex through, 0 leaves nothing, not even S_0.", default=1)
+    gate = Input("1", "1 enables the reflex; 0 disables it, including S_0.", default=1)
     stimulation = Output("1", "Contribution to the muscle's excitation.")
 
     answer = Curve(

@@ -2,7 +2,7 @@
 
 
 def swell(now, peak_at, rise, fall):
-    """From 0 at `peak_at - rise` to 1 at `peak_at` and back to 0 at `peak_at + fall`, smooth, with 3 s^2 - 2 s^3."""
+    """Smooth pulse by 3 s^2 - 2 s^3: 0 at `peak_at - rise`, 1 at `peak_at`, 0 at `peak_at + fall`."""
     share = 1 + (now - peak_at) / rise if now < peak_at else 1 - (now - peak_at) / fall
     share = max(0.0, share)
     return share * share * (3 - 2 * share)

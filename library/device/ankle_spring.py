@@ -2,19 +2,20 @@ from gaitsim.component import Component, Curve, Input, Link, Output, Parameter, 
 
 
 def stretch_of(angle, rest, direction):
-    """How far a spring that only pulls is stretched, as an angle of the joint."""
+    """Stretch of a spring that only pulls, as an angle of the joint."""
     return max(0.0, direction * (rest - angle))
 
 
 class AnkleSpring(Component):
-    """A spring beside a joint, with a slack angle and a clutch: a passive ankle exoskeleton.
+    """A spring parallel to a joint, with a slack angle and a clutch: a passive ankle exoskeleton.
 
-    The spring only pulls, and makes the angle grow (direction 1): M = k max(0, phi_rest - phi). At an ankle whose
-    angle grows with plantarflexion it thus helps the calf. Without a gate, phi_rest is the slack angle. With one, as
-    in Collins, Wiggin & Sawicki (2015), the device is free while the clutch is released, as in swing. From the instant
-    at which it engages, slack is taken up: phi_rest is the largest angle since then, at most the slack angle.
+    The spring only pulls, in the direction of increasing angle (direction 1): M = k max(0, phi_rest - phi). At an
+    ankle whose angle grows with plantarflexion it thus helps the calf. Without a gate, phi_rest is the slack angle.
+    With one, as in Collins, Wiggin & Sawicki (2015), the device is free while the clutch is released, as in swing.
+    From the instant at which it engages, slack is taken up: phi_rest is the largest angle since then, at most the
+    slack angle.
 
-    All energy comes back, except what the spring holds when the clutch is released, which is booked.
+    The spring returns all energy except what it holds when the clutch is released; this loss is an output.
     The clutch is engaged while the gate is above one half. The device has no mass.
     """
 
@@ -22,25 +23,25 @@ class AnkleSpring(Component):
     slack_angle = Parameter("deg", "Angle of the joint beyond which the spring is slack.", bounds=(-360, 360))
     direction = Parameter(
         "1",
-        "1: it makes the joint's angle grow; -1: shrink.",
+        "1: the moment acts towards larger joint angles; -1: towards smaller ones.",
         default=1,
         bounds=(-1, 1),
         source="definition: plantarflexion adds to the ankle's angle in geyer2010",
     )
     joint = Link(
-        "The joint that the device spans, instead of angle: and to:.",
+        "The joint that the device spans; replaces angle: and to:.",
         reads=(("angle", "angle"),),
         sends=(("moment", "moment"),),
     )
     angle = Input("rad", "Joint angle.")
     gate = Input("1", "The clutch is engaged above one half; without a gate, always.", default=1)
     engaged = State(levels=("no", "yes"), doc="Whether the clutch was engaged one step ago.")
-    rest = State("rad", "phi_rest: where the spring is at rest.")
-    dissipated = State("J", "Energy that the spring has held when the clutch was released, in total.")
-    moment = Output("N m", "Moment that makes the joint's angle grow.")
+    rest = State("rad", "phi_rest: angle at which the spring is at rest.")
+    dissipated = State("J", "Total energy that the spring held at releases of the clutch.")
+    moment = Output("N m", "Moment in the direction of increasing joint angle.")
     stretch = Output("rad", "Stretch of the spring.")
     elastic_energy = Output("J", "Elastic energy of the spring.")
-    dissipated_energy = Output("J", "What has been lost by releases under load since the start.")
+    dissipated_energy = Output("J", "Energy lost by releases under load since the start.")
 
     spring = Curve(
         "moment",

@@ -4,18 +4,18 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter
 
 
 class HipAssist(Component):
-    """A hip exoskeleton by delayed output feedback: M = k (sin phi - sin phi_other), both a delay ago, limited.
+    """A hip exoskeleton with delayed output feedback: M = k (sin phi - sin phi_other), both delayed, limited.
 
     The law of Lim et al. (2019). phi is the hip's angle from upright standing. The delay belongs to the
     connections: `angle: {from: leg_l.hip.angle, delay: 250 ms}`. A negative k moves each leg towards the other one.
     """
 
-    gain = Parameter("N m", "k.", bounds=(-1e3, 1e3))
+    gain = Parameter("N m", "k: gain.", bounds=(-1e3, 1e3))
     neutral = Parameter("deg", "Angle of the hip when standing upright.", bounds=(-360, 360))
     limit = Parameter("N m", "Largest moment of the motor.", bounds=(0, 1e3))
     angle = Input("rad", "Angle of this hip.")
     opposite_angle = Input("rad", "Angle of the other hip.")
-    moment = Output("N m", "Moment that makes the joint's angle grow.")
+    moment = Output("N m", "Moment in the direction of increasing joint angle.")
 
     law = Curve(
         "moment",

@@ -7,21 +7,21 @@ class PhaseTorque(Component):
     """A torque over the phase of the stride: it rises smoothly to a peak and falls again.
 
     The four numbers of Zhang et al. (2017), in shares of the stride: peak torque, its phase, rise and fall.
-    The phase is the time since the last touchdown over the time of the stride before; it stays below 1 until
-    the next one. Before two touchdowns are known there is no torque.
+    The phase is the time since the last touchdown divided by the duration of the previous stride; it stays below 1
+    until the next touchdown. There is no torque before the second touchdown.
     """
 
-    peak = Parameter("N m", "Torque at the peak; negative the other way.", bounds=(-1e4, 1e4))
+    peak = Parameter("N m", "Torque at the peak; negative for the opposite direction.", bounds=(-1e4, 1e4))
     peak_phase = Parameter("1", "Phase of the peak, as a share of the stride.", bounds=(0, 1))
     rise = Parameter("1", "From the onset to the peak, as a share of the stride.", bounds=(1e-3, 1))
     fall = Parameter("1", "From the peak to the end, as a share of the stride.", bounds=(1e-3, 1))
-    joint = Link("The joint that the device moves, instead of to:.", sends=(("moment", "moment"),))
+    joint = Link("The joint that the device acts on; replaces to:.", sends=(("moment", "moment"),))
     touchdown = Input("1", "1 in the instant of a touchdown of the leg, else 0.")
     events = State("1", "Touchdowns so far.")
     steps = State("1", "Steps since the last touchdown.")
     stride = State("1", "Steps of the last whole stride.")
     phase = State("1", "Phase of the stride.")
-    moment = Output("N m", "Moment that makes the joint's angle grow.")
+    moment = Output("N m", "Moment in the direction of increasing joint angle.")
 
     profile = Curve(
         "moment",

@@ -6,19 +6,19 @@ from ._profile import swell
 class TimedTorque(Component):
     """A torque over the time since an event, such as touchdown: it rises smoothly to a peak and falls again.
 
-    The four numbers of Zhang et al. (2017): peak torque, its time, rise and fall time. The corners are joined by
+    The four numbers of Zhang et al. (2017): peak torque, its time, rise and fall time. Rise and fall follow
     3 s^2 - 2 s^3, which is flat at both ends. Before the first event there is no torque.
     """
 
-    peak = Parameter("N m", "Torque at the peak; negative the other way.", bounds=(-1e4, 1e4))
+    peak = Parameter("N m", "Torque at the peak; negative for the opposite direction.", bounds=(-1e4, 1e4))
     peak_time = Parameter("s", "Time of the peak after the event.", bounds=(0, 1e4))
     rise = Parameter("s", "Time from the onset to the peak.", bounds=(1e-3, 1e4))
     fall = Parameter("s", "Time from the peak to the end.", bounds=(1e-3, 1e4))
-    joint = Link("The joint that the device moves, instead of to:.", sends=(("moment", "moment"),))
+    joint = Link("The joint that the device acts on; replaces to:.", sends=(("moment", "moment"),))
     event = Input("1", "1 in the instant of the event, else 0.")
     steps = State("1", "Steps since the last event; -1 before the first.")
     since = State("s", "Time since the last event.")
-    moment = Output("N m", "Moment that makes the joint's angle grow.")
+    moment = Output("N m", "Moment in the direction of increasing joint angle.")
 
     profile = Curve(
         "moment",

@@ -6,15 +6,15 @@ from gaitsim.component import Component, Input, Link, Output, Parameter, State
 class RimlessWheel(Component):
     """The next spoke of a rimless wheel strikes a slope, without rebound or slip (McGeer 1990).
 
-    The angular momentum about the new foothold is kept: with spokes of length l that are 2 a apart, a mass m and an
-    inertia I about the hub, the rate is multiplied by (I + m l^2 cos 2a) / (I + m l^2).
+    The angular momentum about the new foothold is conserved: with spokes of length l that are 2 a apart, a mass m and
+    an inertia I about the hub, the rate is multiplied by (I + m l^2 cos 2a) / (I + m l^2).
     """
 
     spokes = Parameter("1", "Number of spokes.", bounds=(3, 100))
     length = Parameter("m", "Length of a spoke l.", bounds=(1e-3, 10))
     mass = Parameter("kg", "Mass m.", bounds=(1e-6, 1000))
     inertia = Parameter("kg m^2", "Moment of inertia I about the hub.", bounds=(0, 1000))
-    slope = Parameter("rad", "How far the ground falls off forwards.", bounds=(-1.5, 1.5))
+    slope = Parameter("rad", "Downward slope of the ground in the forward direction.", bounds=(-1.5, 1.5))
     foothold = Link(
         "The joint of the standing spoke.",
         reads=(("angle", "angle"), ("rate", "velocity"), ("x", "x"), ("z", "z")),
@@ -26,10 +26,10 @@ class RimlessWheel(Component):
             ("new_z", "new_z"),
         ),
     )
-    angle = Input("rad", "How far the standing spoke leans forwards.")
+    angle = Input("rad", "Forward lean of the standing spoke.")
     rate = Input("rad/s", "Its rate.")
-    x = Input("m", "Where it stands.")
-    z = Input("m", "How high it stands.")
+    x = Input("m", "Position of its foothold.")
+    z = Input("m", "Height of its foothold.")
 
     struck_at = State("s", "When the last impact was.")
     speed = State("m/s", "Speed along the slope over the last step.")
@@ -38,9 +38,9 @@ class RimlessWheel(Component):
     struck = Output("1", "1 in the instant of an impact.")
     new_angle = Output("rad", "Lean of the next spoke.")
     new_rate = Output("rad/s", "Rate after an impact at this rate.")
-    new_x = Output("m", "Where the next spoke stands.")
-    new_z = Output("m", "How high it stands.")
-    step_length = Output("m", "Distance of two footholds.")
+    new_x = Output("m", "Position of the next foothold.")
+    new_z = Output("m", "Height of the next foothold.")
+    step_length = Output("m", "Distance between two footholds.")
     step_speed = Output("m/s", "Speed along the slope over the last step.")
 
     @staticmethod

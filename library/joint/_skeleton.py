@@ -2,11 +2,13 @@ from gaitsim.component import Attachment, Component, Curve, Input, Output, Param
 
 
 class Skeleton(Component):
-    """A hinge about the y axis with a spring, M = -k (phi - phi_0); write here what yours does."""
+    """A hinge about the y axis with a spring, M = -k (phi - phi_0); replace it by your equations."""
 
     parent = Attachment("The frame that holds the hinge.")
     child = Attachment("The frame that turns.")
-    stiffness = Parameter("N m/rad", "k.", default=10, bounds=(0, 1e6), source="definition: a beginning")
+    stiffness = Parameter(
+        "N m/rad", "k: stiffness.", default=10, bounds=(0, 1e6), source="definition: a starting value"
+    )
     rest = Parameter("rad", "phi_0: angle without torque.", default=0, bounds=(-6.3, 6.3), source="definition: aligned")
     torque = Input("N m", "Torque on the child about the hinge's axis.", sums=True)
     angle = Output("rad", "Angle from the posture in which the two frames are aligned.", usual=(-6.3, 6.3))

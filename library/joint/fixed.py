@@ -2,13 +2,13 @@ from gaitsim.component import Attachment, Component
 
 
 class Fixed(Component):
-    """Holds two segments together without any freedom, such as pelvis and torso of a model without a lumbar joint.
+    """Connects two segments rigidly, such as pelvis and torso of a model without a lumbar joint.
 
-    The child's frame lies where the parent's is, with the same orientation.
+    The child's frame coincides with the parent's.
     """
 
-    parent = Attachment("The frame that holds.")
-    child = Attachment("The frame that is held.")
+    parent = Attachment("The frame of the first segment.")
+    child = Attachment("The frame of the second segment.")
 
     @staticmethod
     def build(p, mj):

@@ -2,28 +2,28 @@ from gaitsim.component import Attachment, Component, Input, Output, Parameter
 
 
 class Foothold(Component):
-    """A foot on the ground that is set down elsewhere in an instant: a pin joint that impacts move.
+    """A pin joint at the stance foot, which an impact moves to the next foothold.
 
-    The foot does not move while it stands: two slides with an armature far above any mass hold it. What an impact sends
-    is the place, the angle and the rate that the joint has after it.
+    During stance, two slides with an armature far above any mass keep the foot in place. An impact sends the position,
+    the angle and the angular velocity of the joint after it.
     """
 
-    parent = Attachment("The frame in which the foot is placed, as a rule world.")
+    parent = Attachment("The frame in which the foot is placed, usually world.")
     child = Attachment("The foot.")
     hold = Parameter(
         "kg", "Armature of the slides.", default=1e15, bounds=(1e9, 1e18), source="definition: beyond any body's mass"
     )
     torque = Input("N m", "Torque that turns the leg forwards.", sums=True)
     struck = Input("1", "1 in the instant of an impact.", default=0)
-    new_x = Input("m", "Where the foot stands after an impact.", default=0)
-    new_z = Input("m", "How high it stands then.", default=0)
+    new_x = Input("m", "Position of the foot after an impact.", default=0)
+    new_z = Input("m", "Height of the foot after an impact.", default=0)
     new_angle = Input("rad", "Angle after an impact.", default=0)
     new_rate = Input("rad/s", "Rate of the angle after an impact.", default=0)
-    x = Output("m", "How far ahead the foot stands.")
-    z = Output("m", "How high the foot stands.")
-    angle = Output("rad", "How far the leg leans forwards from the vertical.", usual=(-6.3, 6.3))
+    x = Output("m", "Forward position of the foot.")
+    z = Output("m", "Height of the foot.")
+    angle = Output("rad", "Forward lean of the leg from the vertical.", usual=(-6.3, 6.3))
     velocity = Output("rad/s", "Rate of the angle.")
-    rest = Output("m/s", "Velocity of the foot after an impact: none.")
+    rest = Output("m/s", "Velocity of the foot after an impact; always 0.")
 
     @staticmethod
     def output(p, u, x, y):

@@ -2,24 +2,29 @@ from gaitsim.component import Attachment, Component, Curve, Input, Option, Outpu
 
 
 class Geyer2010(Component):
-    """A hinge with the dissipative soft stops of Geyer & Herr (2010), which counts angles as the paper does.
+    """A hinge with the dissipative soft stops of Geyer & Herr (2010) and the paper's convention of angles.
 
-    For a depth d > 0 beyond a stop its moment is c d (1 + d' / w), out of the stop, and never pulls
-    back. The paper's angles: ankle, neutral 90 deg, grows backwards, so that plantarflexion adds;
-    knee, neutral 180 deg, grows forwards, so that extension adds; hip, neutral 180 deg, grows
-    backwards, so that extension adds. Its stops: ankle 70 and 130 deg, knee 175 deg (upper), hip 230
-    deg (upper).
+    At a depth d > 0 beyond a stop, the moment is c d (1 + d' / w), directed out of the stop and never into it.
+    The paper's angles: ankle, neutral 90 deg, grows backwards (plantarflexion is positive); knee, neutral
+    180 deg, grows forwards (extension is positive); hip, neutral 180 deg, grows backwards (extension is
+    positive). The paper's stops: ankle 70 and 130 deg, knee 175 deg (upper), hip 230 deg (upper).
 
-    With w = 1 deg/s a stop is a damper of 980 d N m s/rad first of all: with explicit steps of 1 ms it
-    would throw a free foot out again 15 times as fast as it came, from 5 deg. So its moment is solved for the
-    velocity at the end of the step; `stop_moment` is the one of the step before.
+    With w = 1 deg/s, damping dominates: 980 d N m s/rad. With explicit steps of 1 ms, a free foot would leave the
+    stop 15 times as fast as it came, from a depth of 5 deg. The moment is therefore solved implicitly, for the
+    velocity at the end of the step; `stop_moment` is that of the previous step.
     """
 
     parent = Attachment("The frame that holds the hinge.")
     child = Attachment("The frame that turns.")
-    grows = Option("Which way a hanging child turns as the angle grows.", choices=("backwards", "forwards"))
+    grows = Option(
+        "Direction in which a hanging child turns as the angle increases.", choices=("backwards", "forwards")
+    )
     neutral = Parameter(
-        "deg", "Angle where the two frames are aligned.", default=0, bounds=(-360, 360), source="definition: a choice"
+        "deg",
+        "Angle at which the two frames are aligned.",
+        default=0,
+        bounds=(-360, 360),
+        source="definition: a choice",
     )
     lower = Parameter(
         "deg",
@@ -35,23 +40,21 @@ class Geyer2010(Component):
         bounds=(-1e4, 1e4),
         source="definition: out of reach, no stop",
     )
-    stiffness = Parameter(
-        "N m/deg", "c: moment per angle beyond a stop, at rest.", default=0.3, bounds=(0, 1e4), source="geyer2010"
-    )
+    stiffness = Parameter("N m/deg", "c: stiffness of a stop.", default=0.3, bounds=(0, 1e4), source="geyer2010")
     release_velocity = Parameter(
         "deg/s",
-        "w: at this velocity out of a stop its moment vanishes.",
+        "w: angular velocity out of a stop at which its moment vanishes.",
         default=1,
         bounds=(1e-3, 1e6),
         source="geyer2010",
     )
     damping = Parameter(
-        "N m s/rad", "Viscous damping everywhere.", default=0, bounds=(0, 1000), source="definition: an ideal hinge"
+        "N m s/rad", "Viscous damping at all angles.", default=0, bounds=(0, 1000), source="definition: an ideal hinge"
     )
-    moment = Input("N m", "Moment that makes the angle grow.", sums=True)
-    below = State("N m", "What the lower stop had at rest one step ago.")
-    above = State("N m", "What the upper stop had at rest one step ago.")
-    stepped = State(levels=("no", "yes"), doc="Whether there is a step before.")
+    moment = Input("N m", "Moment in the direction of increasing angle.", sums=True)
+    below = State("N m", "Elastic moment of the lower stop one step ago.")
+    above = State("N m", "Elastic moment of the upper stop one step ago.")
+    stepped = State(levels=("no", "yes"), doc="No in the first step, yes afterwards.")
     angle = Output(
         "rad",
         "Angle.",
@@ -59,8 +62,8 @@ class Geyer2010(Component):
         possible=("lower - pi / 2", "upper + pi / 2"),
     )
     angular_velocity = Output("rad/s", "Rate of the angle.")
-    lower_spring = Output("N m", "What the lower stop would have at rest, c d.")
-    upper_spring = Output("N m", "What the upper stop would have at rest, c d.")
+    lower_spring = Output("N m", "Elastic moment of the lower stop, c d.")
+    upper_spring = Output("N m", "Elastic moment of the upper stop, c d.")
     stop_moment = Output("N m", "Moment of the stops; positive at the lower one; one step old.")
     stop_energy = Output("J", "Elastic energy in the stops, c d^2 / 2.", usual=(0, 5), possible=(0, 1000))
 

@@ -4,7 +4,7 @@ from gaitsim.component import Attachment, Component, Input, Output, Parameter
 class Hinge(Component):
     """A hinge in the sagittal plane: about the y axis, which points to the left.
 
-    A positive angle turns a hanging child backwards, as knee flexion does.
+    A positive angle turns a hanging child backwards, as in knee flexion.
     """
 
     parent = Attachment("The frame that holds the hinge.")

@@ -2,15 +2,15 @@ from gaitsim.component import Attachment, Component, Curve, Input, Output, Param
 
 
 def stop_torque(depth, rate, stiffness, damping):
-    """A spring and a damper side by side for a depth > 0; it pushes out and never holds back."""
+    """Torque of a spring and a damper in parallel at a depth > 0; directed out of the stop, never into it."""
     return max(0.0, stiffness * depth + damping * rate) if depth > 0 else 0.0
 
 
 class LimitedHinge(Component):
     """A hinge in the sagittal plane, about the y axis, with a soft stop at either end of its range.
 
-    A positive angle turns a hanging child backwards, as knee flexion does. A stop is a spring and
-    a damper that act beyond the limit only, and never pull.
+    A positive angle turns a hanging child backwards, as in knee flexion. A stop is a spring and a damper
+    in parallel. It acts beyond the limit only, and never pulls into it.
     """
 
     parent = Attachment("The frame that holds the hinge.")
@@ -23,7 +23,7 @@ class LimitedHinge(Component):
     )
     damping = Parameter(
         "N m s/rad",
-        "Viscous damping everywhere.",
+        "Viscous damping at all angles.",
         default=0,
         bounds=(0, 1000),
         source="definition: an ideal hinge",
@@ -38,7 +38,7 @@ class LimitedHinge(Component):
     velocity = Output("rad/s", "Angular velocity.")
     stop = Output("N m", "Torque of the stops on the child; positive at the lower one.")
     stop_energy = Output("J", "Elastic energy in the stops.", usual=(0, 5), possible=(0, 1000))
-    total = Output("N m", "Torque of stops and senders together.")
+    total = Output("N m", "Sum of the torques of stops and of connected parts.")
 
     stops = Curve(
         "stop",

@@ -2,13 +2,13 @@ from gaitsim.component import Attachment, Component, Input, Option, Output
 
 
 class Planar(Component):
-    """The root of a planar body: the child moves forwards, up and about the y axis, and no other way.
+    """Root joint of a planar model: the child moves forwards, upwards and about the y axis only.
 
-    Place and pitch are those of the child's frame seen from the parent. A positive pitch leans an
-    upright child forwards. `initial:` may set any of the six coordinates and rates.
+    Position and pitch are those of the child's frame relative to the parent. A positive pitch is a forward
+    lean. `initial:` may set any of the six coordinates and rates.
     """
 
-    parent = Attachment("The frame from which the child is seen, as a rule world.")
+    parent = Attachment("The reference frame, usually world.")
     child = Attachment("The frame that moves in the plane.")
     pose = Option(
         "standing: unless `initial:` sets z, the lowest contact touches the ground at the start.",
@@ -18,9 +18,9 @@ class Planar(Component):
     forward_force = Input("N", "Force on the child's frame, forwards.", sums=True)
     upward_force = Input("N", "Force on the child's frame, upwards.", sums=True)
     moment = Input("N m", "Moment that leans the child forwards.", sums=True)
-    x = Output("m", "How far the child is in front of the parent.")
-    z = Output("m", "How high the child is above the parent.")
-    pitch = Output("rad", "How far the child leans forwards.", usual=(-6.3, 6.3))
+    x = Output("m", "Forward position of the child.")
+    z = Output("m", "Height of the child above the parent.")
+    pitch = Output("rad", "Forward lean of the child.", usual=(-6.3, 6.3))
     forward_velocity = Output("m/s", "Rate of x.")
     upward_velocity = Output("m/s", "Rate of z.")
     pitch_velocity = Output("rad/s", "Rate of the pitch.")

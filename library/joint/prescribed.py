@@ -10,26 +10,32 @@ def between(before, here, after, beyond, share):
 
 
 class Prescribed(Component):
-    """A hinge that follows a recorded cycle, whatever pulls on it: prescribed kinematics, forward muscles.
+    """A hinge that follows a recorded cycle regardless of moments: prescribed kinematics with simulated muscles.
 
-    The recorded curve goes from 0 to 100 % of the cycle, which lasts one period and begins anew where it ends;
-    between its points the angle is smooth. Moments of muscles are taken, and told, but move nothing. A drive with an
-    armature far above any segment's inertia turns the hinge so that it is on the curve at the end of each step.
+    The recorded curve covers 0 to 100 % of the cycle, which lasts one period and repeats. The angle is interpolated
+    smoothly between its points. Moments of muscles are reported but do not move the joint. A drive with an armature
+    far above any segment's inertia turns the hinge so that it is on the curve at the end of each step.
     """
 
     parent = Attachment("The frame that holds the hinge.")
     child = Attachment("The frame that turns.")
     motion = Series("deg", "Recorded angle over the cycle.", size=101)
-    period = Parameter("s", "How long a cycle lasts.", bounds=(0.01, 1e3))
+    period = Parameter("s", "Duration of a cycle.", bounds=(0.01, 1e3))
     first_phase = Parameter("1", "Phase at the start.", default=0, bounds=(0, 1), source="definition: the cycle begins")
-    grows = Option("Which way a hanging child turns as the angle grows.", choices=("backwards", "forwards"))
-    neutral = Parameter(
-        "deg", "Angle where the two frames are aligned.", default=0, bounds=(-360, 360), source="definition: a choice"
+    grows = Option(
+        "Direction in which a hanging child turns as the angle increases.", choices=("backwards", "forwards")
     )
-    zero = Parameter("deg", "Angle that the curve calls 0.", default=0, bounds=(-360, 360), source="definition: as is")
+    neutral = Parameter(
+        "deg",
+        "Angle at which the two frames are aligned.",
+        default=0,
+        bounds=(-360, 360),
+        source="definition: a choice",
+    )
+    zero = Parameter("deg", "Angle at which the curve is 0.", default=0, bounds=(-360, 360), source="definition: as is")
     sign = Parameter(
         "1",
-        "1 if the angle grows with the curve, -1 if against it.",
+        "1 if the angle increases with the curve, -1 if it decreases.",
         default=1,
         bounds=(-1, 1),
         source="definition: as is",
@@ -37,7 +43,9 @@ class Prescribed(Component):
     armature = Parameter(
         "kg m^2", "Inertia of the drive.", default=1e7, bounds=(1, 1e12), source="definition: beyond any segment's"
     )
-    moment = Input("N m", "Moment that would make the angle grow.", sums=True)
+    moment = Input(
+        "N m", "Moment of the muscles in the direction of increasing angle; it does not move the joint.", sums=True
+    )
 
     steps = State("1", "Steps since the start.")
     step = State("s", "Duration of a step; 0 before the first.")
@@ -46,7 +54,7 @@ class Prescribed(Component):
     angle = Output("rad", "Angle.")
     angular_velocity = Output("rad/s", "Rate of the angle.")
     phase = Output("1", "Phase of the cycle, from 0 up to but not including 1.")
-    muscle_moment = Output("N m", "The moment that arrives.")
+    muscle_moment = Output("N m", "Sum of the moments of muscles.")
     drive = Output("N m", "Moment of the drive.")
 
     @staticmethod

@@ -2,16 +2,16 @@ from gaitsim.component import Attachment, Component, Input, Option, Output
 
 
 class Spatial(Component):
-    """The root of a body in space: the child moves and turns every way.
+    """Root joint of a model in space: the child translates and rotates freely.
 
-    Place and turns are those of the child's frame seen from the parent. It turns to the left by the yaw, then,
-    about its own forward axis, to the right by the roll, then forwards by the pitch; this order is
-    that of rotation, obliquity and tilt of a pelvis (Baker 2001), and says the same of a person who walks any way.
-    At a roll of 90 deg, lying on the side, yaw and pitch turn the same way and their rates have no bound.
+    Position and rotation are those of the child's frame relative to the parent. Rotations are in the order yaw (to the
+    left), roll (to the right, about the child's forward axis), pitch (forwards). This is the order of rotation,
+    obliquity and tilt of a pelvis (Baker 2001), which does not depend on the direction of walking.
+    At a roll of 90 deg, lying on the side, the axes of yaw and pitch coincide and their rates are unbounded.
     `initial:` may set any of the twelve coordinates and rates.
     """
 
-    parent = Attachment("The frame from which the child is seen, as a rule world.")
+    parent = Attachment("The reference frame, usually world.")
     child = Attachment("The frame that moves.")
     pose = Option(
         "standing: unless `initial:` sets z, the lowest contact touches the ground at the start.",
@@ -24,12 +24,12 @@ class Spatial(Component):
     yaw_moment = Input("N m", "Moment that turns the child to the left.", sums=True)
     roll_moment = Input("N m", "Moment that leans the child to its right.", sums=True)
     pitch_moment = Input("N m", "Moment that leans the child forwards.", sums=True)
-    x = Output("m", "How far the child is in front of the parent.")
-    y = Output("m", "How far the child is to the left of the parent.")
-    z = Output("m", "How high the child is above the parent.")
-    yaw = Output("rad", "How far the child is turned to the left.", usual=(-6.3, 6.3))
-    roll = Output("rad", "How far the child leans to its right.", usual=(-1.5, 1.5))
-    pitch = Output("rad", "How far the child leans forwards.", usual=(-6.3, 6.3))
+    x = Output("m", "Forward position of the child.")
+    y = Output("m", "Position of the child to the left.")
+    z = Output("m", "Height of the child above the parent.")
+    yaw = Output("rad", "Rotation of the child to the left.", usual=(-6.3, 6.3))
+    roll = Output("rad", "Lean of the child to its right.", usual=(-1.5, 1.5))
+    pitch = Output("rad", "Forward lean of the child.", usual=(-6.3, 6.3))
     forward_velocity = Output("m/s", "Rate of x.")
     left_velocity = Output("m/s", "Rate of y.")
     upward_velocity = Output("m/s", "Rate of z.")

@@ -6,9 +6,9 @@ from gaitsim.component import Attachment, Component, Curve, Input, Output, Param
 class SpatialHinge(Component):
     """A hinge about any axis, with a soft stop at either end of its range.
 
-    The angle grows counterclockwise about the axis, seen against it. Several hinges with the same parent and
+    The angle follows the right-hand rule about the axis. Several hinges with the same parent and
     child make one joint of as many degrees of freedom, such as a hip: the first turns the second, and
-    both the third. On the left side the axis is mirrored, so that an angle means the same on both.
+    both the third. On the left side the axis is mirrored, so that angles have the same meaning on both sides.
 
     A stop is a spring of a depth d > 0 beyond its end, with a damping that grows with depth (Hunt & Crossley 1975):
     M = k d (1 + k_w d'), never pulling back, solved for the velocity at the end of the step. A range without
@@ -18,13 +18,13 @@ class SpatialHinge(Component):
     parent = Attachment("The frame that holds the hinge.")
     child = Attachment("The frame that turns.")
     axis_forward = Parameter(
-        "1", "How far the axis points forwards.", default=0, bounds=(-1e3, 1e3), source="definition: not at all"
+        "1", "Forward component of the axis.", default=0, bounds=(-1e3, 1e3), source="definition: no component"
     )
     axis_left = Parameter(
-        "1", "How far the axis points to the left.", default=0, bounds=(-1e3, 1e3), source="definition: not at all"
+        "1", "Leftward component of the axis.", default=0, bounds=(-1e3, 1e3), source="definition: no component"
     )
     axis_up = Parameter(
-        "1", "How far the axis points upwards.", default=0, bounds=(-1e3, 1e3), source="definition: not at all"
+        "1", "Upward component of the axis.", default=0, bounds=(-1e3, 1e3), source="definition: no component"
     )
     lower = Parameter(
         "deg",
@@ -41,15 +41,19 @@ class SpatialHinge(Component):
         source="definition: out of reach, no stop",
     )
     stiffness = Parameter(
-        "N m/rad", "k of the stops.", default=500, bounds=(0, 1e6), source="sconemodels: models H1922 and H0918"
+        "N m/rad",
+        "k: stiffness of the stops.",
+        default=500,
+        bounds=(0, 1e6),
+        source="sconemodels: models H1922 and H0918",
     )
     stop_damping = Parameter(
-        "s/rad", "k_w of the stops.", default=0, bounds=(0, 1e3), source="definition: an elastic stop"
+        "s/rad", "k_w: damping of the stops.", default=0, bounds=(0, 1e3), source="definition: an elastic stop"
     )
     damping = Parameter(
-        "N m s/rad", "Viscous damping everywhere.", default=0, bounds=(0, 1000), source="definition: an ideal hinge"
+        "N m s/rad", "Viscous damping at all angles.", default=0, bounds=(0, 1000), source="definition: an ideal hinge"
     )
-    moment = Input("N m", "Moment that makes the angle grow.", sums=True)
+    moment = Input("N m", "Moment in the direction of increasing angle.", sums=True)
     angle = Output(
         "rad",
         "Angle from the posture in which the two frames are aligned.",
@@ -61,7 +65,7 @@ class SpatialHinge(Component):
     drag = Output("N m s/rad", "Damping of the stops.")
     stop_moment = Output("N m", "Moment of the stops.")
     stop_energy = Output("J", "Elastic energy in the stops, k d^2 / 2.", usual=(0, 5), possible=(0, 1000))
-    total = Output("N m", "Moment of senders and springs together.")
+    total = Output("N m", "Sum of the moments of connected parts and springs.")
 
     stops = Curve(
         "stop_moment",
@@ -77,7 +81,7 @@ class SpatialHinge(Component):
         below, above = max(0.0, p.lower - y.angle), max(0.0, y.angle - p.upper)
         y.spring = p.stiffness * (below - above)
         y.stop_energy = 0.5 * p.stiffness * (below**2 + above**2)
-        # On the way out it takes at most what the spring has, so that a stop does not hold back.
+        # On the way out, damping takes at most the moment of the spring, so that a stop never pulls into the limit.
         leaving = y.angular_velocity * (below - above) > 0
         damped = p.stiffness * (below + above) * p.stop_damping
         y.drag = damped

@@ -2,7 +2,7 @@ from gaitsim.component import Attachment, Component, Input, Output
 
 
 class SwungHinge(Component):
-    """A hip whose two legs exchange their roles in an instant: a hinge that impacts set anew.
+    """Hip of a walker whose legs exchange roles at an impact, which resets angle and angular velocity.
 
     A positive angle turns the hanging leg backwards.
     """

@@ -4,11 +4,16 @@ from gaitsim.component import Attachment, Component, Input, Link, Output, Parame
 
 
 class Spring(Component):
-    """A massless leg with a linear spring between the hip and a foot that stands still: the spring-loaded pendulum.
+    """Massless leg with a linear spring between the hip and a fixed foothold: the spring-loaded inverted pendulum.
 
+<<<<<<< HEAD
     In the air it points ahead by the angle of touchdown. It lands when its foot is on the ground, and pushes with
     k (l_0 - l) along itself until it has its rest length again (Blickhan 1989; Geyer, Seyfarth & Blickhan 2006).
     A damper beside the spring, if there is one, takes c dl/dt off; the leg then takes off where its force ends.
+=======
+    In flight it has the touchdown angle. It lands when its foot reaches the ground. In stance
+    it pushes with k (l_0 - l) until it reaches its rest length again (Blickhan 1989; Geyer, Seyfarth & Blickhan 2006).
+>>>>>>> dc63507 (Library: texts of components, parameters and signals in plain words; a component's trial is called ten times faster; long test files split by subject; tests compile less)
     Touchdown and take-off are events, located within the step.
     """
 
@@ -26,22 +31,28 @@ class Spring(Component):
     ground = Parameter("m", "Height of the ground.", default=0, bounds=(-100, 100), source="definition: the origin")
     stiffness = Input("N/m", "Stiffness k of the spring.")
     rest_length = Input("m", "Rest length l_0.")
+<<<<<<< HEAD
     touchdown_angle = Input("rad", "Angle of the leg to the ground in the air; below 90 deg the foot is ahead.")
     damping = Input("N s/m", "Damping c of the spring while the leg stands.", default=0)
+=======
+    touchdown_angle = Input(
+        "rad", "Angle between leg and ground in flight; below 90 deg the foot is in front of the hip."
+    )
+>>>>>>> dc63507 (Library: texts of components, parameters and signals in plain words; a component's trial is called ten times faster; long test files split by subject; tests compile less)
     hip_torque = Input("N m", "Torque of the hip that turns the standing foot backwards.", sums=True)
-    x = Input("m", "How far ahead the hip is.")
-    z = Input("m", "How high the hip is.")
+    x = Input("m", "Forward position of the hip.")
+    z = Input("m", "Height of the hip.")
     forward_velocity = Input("m/s", "Rate of x.")
     upward_velocity = Input("m/s", "Rate of z.")
-    opposite_touchdown = Input("s", "When the other leg touched down.", default=0)
-    opposite_foot = Input("m", "Where the other foot stands.", default=0)
+    opposite_touchdown = Input("s", "Time of the other leg's touchdown.", default=0)
+    opposite_foot = Input("m", "Position of the other foot.", default=0)
 
     standing = State("1", "The leg stands: 1, or 0 in the air.")
-    foot = State("m", "Where the foot stands.")
-    landed = State("s", "When it touched down last.")
-    contact = State("s", "How long the last stance took.")
-    stride = State("m", "How far ahead of the other foot it was set down.")
-    overlap = State("s", "How long the last stance overlapped with that of the other leg, at its end.")
+    foot = State("m", "Position of the foot.")
+    landed = State("s", "Time of the last touchdown.")
+    contact = State("s", "Duration of the last stance.")
+    stride = State("m", "Distance in front of the other foot at touchdown.")
+    overlap = State("s", "Duration of double support at the end of the last stance.")
 
     length = Output("m", "Length of the leg; in the air the rest length.")
     velocity = Output("m/s", "Rate of the length; 0 in the air.")
@@ -51,12 +62,12 @@ class Spring(Component):
     energy = Output("J", "Elastic energy of the spring.")
     in_stance = Output("1", "1 while the leg stands, else 0.")
     in_flight = Output("1", "1 while the leg is in the air, else 0.")
-    ahead = Output("m", "How far the hip is ahead of the foot.")
-    above = Output("m", "How high the hip is above the foot.")
-    foot_place = Output("m", "Where the foot stands, or stood last.")
-    step_length = Output("m", "How far ahead of the other foot it was set down last.")
-    touchdown_time = Output("s", "When the leg touched down last.")
-    contact_time = Output("s", "How long the last stance took.")
+    ahead = Output("m", "Distance of the hip in front of the foot.")
+    above = Output("m", "Height of the hip above the foot.")
+    foot_place = Output("m", "Position of the foot in its present or last stance.")
+    step_length = Output("m", "Distance in front of the other foot at the last touchdown.")
+    touchdown_time = Output("s", "Time of the last touchdown.")
+    contact_time = Output("s", "Duration of the last stance.")
     double_support = Output("s", "From the other leg's last touchdown to this leg's last take-off.")
     guard = Output("m", "Rises through 0 at touchdown and at take-off.")
 

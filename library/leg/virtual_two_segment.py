@@ -6,7 +6,7 @@ from gaitsim.component import Attachment, Component, Curve, Input, Output, Param
 class VirtualTwoSegment(Component):
     """A massless leg of two equal segments between the hip and the ground below it.
 
-    It exists as a force only: in flight it waits at its landing length, in stance it spans from
+    It is a force without a body. In flight it has its landing length; in stance it spans from
     the ground to the hip. phi = 2 asin(l / (2 l_s)); F = M / sqrt(l_s^2 - l^2 / 4), where M is
     the knee's extending moment (Geyer et al. 2003).
     """
@@ -30,14 +30,14 @@ class VirtualTwoSegment(Component):
         "knee_angle",
         "length",
         (0.5, 1.05),
-        "Knee over length, as in hopping.",
+        "Knee angle over length.",
         at={"segment_length": 0.5, "landing_length": 0.99},
     )
     bearing = Curve(
         "force",
         "length",
         (0.6, 1.05),
-        "Force over length at a moment of the knee of 100 N m.",
+        "Force over length at a knee moment of 100 N m.",
         at={"segment_length": 0.5, "landing_length": 0.99, "knee_moment": 100},
     )
 

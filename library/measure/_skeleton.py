@@ -2,12 +2,12 @@ from gaitsim.component import Component, Input, Metric, State
 
 
 class Skeleton(Component):
-    """The mean of a signal over the run; write here what yours measures."""
+    """The mean of a signal over the run; replace it by your measure."""
 
     signal = Input("*", "Any signal.")
     total = State("*", "Sum over the steps so far.")
-    steps = State("1", "How many there were.")
-    value = Metric("*", "Mean; it bears the measure's own name.")
+    steps = State("1", "Number of steps so far.")
+    value = Metric("*", "Mean; the metric has the name of the part.")
 
     @staticmethod
     def update(p, u, x, y, dt):

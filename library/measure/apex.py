@@ -4,19 +4,19 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class Apex(Component):
-    """The highest points between contacts, above a reference height."""
+    """Apex heights between contacts, above a reference height."""
 
     reference = Parameter(
         "m", "Height that counts as zero.", default=0, bounds=(-100, 100), source="definition: the ground"
     )
     average = Parameter(
-        "1", "How many of the last apexes are averaged.", default=3, bounds=(1, 16), source="thesis: last three"
+        "1", "Number of most recent apexes that are averaged.", default=3, bounds=(1, 16), source="thesis: last three"
     )
-    height = Input("m", "Height that has apexes.")
+    height = Input("m", "Height whose apexes are measured.")
     airborne = Input("1", "1 where an apex may be, 0 in contact.", default=1)
 
-    samples = State("m", "The last apexes, one place after the other.", size=16)
-    count = State("1", "How many there were.")
+    samples = State("m", "The most recent apexes, as a ring buffer.", size=16)
+    count = State("1", "Number of apexes so far.")
     before = State("m", "Height one step ago.")
     rising = State("1", "1 if the height rose in the last step.")
 

@@ -4,7 +4,7 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class Cadence(Component):
-    """Steps a minute: touchdowns of either leg."""
+    """Cadence: touchdowns of both legs per minute."""
 
     settle = Parameter(
         "s", "Earlier touchdowns do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
@@ -14,12 +14,12 @@ class Cadence(Component):
 
     steps = State("1", "Steps since the start.")
     before = State("1", "Whether each leg stood in the last step.", size=2)
-    touchdowns = State("1", "How many touchdowns count.")
+    touchdowns = State("1", "Number of touchdowns that count.")
     first = State("s", "Time of the first of them.")
     last = State("s", "Time of the last of them.")
 
-    value = Metric("1/min", "Steps a minute, between the first touchdown that counts and the last.")
-    touchdown_count = Metric("1", "How many touchdowns count.")
+    value = Metric("1/min", "Steps per minute between the first and the last touchdown that count.")
+    touchdown_count = Metric("1", "Number of touchdowns that count.")
     step_time = Metric("s", "Mean duration of a step.")
 
     @staticmethod

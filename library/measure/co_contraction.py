@@ -4,14 +4,16 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class CoContraction(Component):
-    """How much two groups of muscles pull against one another: the mean square of the smaller of their moments."""
+    """Co-contraction of two muscle groups: the mean square of the smaller of their moments."""
 
-    unit = Parameter("N m", "Value that counts as 1.", default=1, bounds=(1e-9, 1e9), source="definition: SI")
+    unit = Parameter(
+        "N m", "Scale: the value is divided by this.", default=1, bounds=(1e-9, 1e9), source="definition: SI"
+    )
     settle = Parameter(
         "s", "Samples before this time are ignored.", default=0, bounds=(0, 1e3), source="definition: the whole run"
     )
-    opening = Input("N m", "Moments that make the angle grow; their sum counts where positive.", sums=True)
-    closing = Input("N m", "Moments that make it fall; their sum counts where negative.", sums=True)
+    opening = Input("N m", "Moments towards larger angles; their sum counts where positive.", sums=True)
+    closing = Input("N m", "Moments towards smaller angles; their sum counts where negative.", sums=True)
 
     steps = State("1", "Steps since the start.")
     counted = State("1", "Steps that count.")

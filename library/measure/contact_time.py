@@ -4,15 +4,15 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class ContactTime(Component):
-    """How long contacts last."""
+    """Duration of contacts."""
 
     average = Parameter(
-        "1", "How many of the last contacts are averaged.", default=3, bounds=(1, 16), source="thesis: last three"
+        "1", "Number of most recent contacts that are averaged.", default=3, bounds=(1, 16), source="thesis: last three"
     )
     contact = Input("1", "1 in contact, else 0.")
 
-    samples = State("s", "The last durations, one place after the other.", size=16)
-    count = State("1", "How many contacts have ended.")
+    samples = State("s", "The most recent durations, as a ring buffer.", size=16)
+    count = State("1", "Number of contacts that have ended.")
     duration = State("s", "Duration of the present contact.")
     seen = State("1", "1 once the first touchdown has been seen; a contact cut by the start is not counted.")
     inside = State("1", "1 if the last step was in contact.")

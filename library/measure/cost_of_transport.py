@@ -4,7 +4,7 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class CostOfTransport(Component):
-    """Gross metabolic energy per body mass and distance: that of all muscles and of the body at rest.
+    """Gross metabolic energy of muscles and basal metabolism, per body mass and distance.
 
     Each muscle's `metabolics` sends its power here or to a sum of its leg: `to: cost_of_transport.power`.
     """
@@ -17,20 +17,26 @@ class CostOfTransport(Component):
         bounds=(0, 10),
         source="umberger2003: as in OpenSim",
     )
-    settle = Parameter("s", "The count begins here.", default=2, bounds=(0, 1e3), source="definition: two strides")
+    settle = Parameter(
+        "s",
+        "Energy and distance are counted from this time on.",
+        default=2,
+        bounds=(0, 1e3),
+        source="definition: two strides",
+    )
     power = Input("W", "Metabolic powers of muscles.", sums=True)
     position = Input("m", "Forward position, such as that of the pelvis.")
 
     steps = State("1", "Steps since the start.")
     time = State("s", "Time of the last position.")
     begin = State("m", "Position where the count begins.")
-    begin_time = State("s", "When that was.")
+    begin_time = State("s", "Time at which the count begins.")
     last = State("m", "Last position.")
     energy = State("J", "Energy of all muscles since the count began.")
     before = State("W", "Power one step ago.")
 
-    value = Metric("J/(kg m)", "Gross cost of transport; none without a way forward.")
-    muscles = Metric("J/(kg m)", "The same without the body's rest.")
+    value = Metric("J/(kg m)", "Gross cost of transport; no value without forward motion.")
+    muscles = Metric("J/(kg m)", "The same without basal metabolism.")
     rate = Metric("W/kg", "Gross metabolic power per body mass.")
 
     @staticmethod

@@ -4,26 +4,30 @@ from gaitsim.component import Component, Input, Metric, Output, Parameter, State
 
 
 class Effort(Component):
-    """The integral over time of a muscle's excitation or activation to a power: squared, cubed or other.
+    """Integral over time of a power of a muscle's excitation or activation, such as its square or cube.
 
-    Several muscles are summed by a part of their own: `to: effort.signal`, with `effort: {use: measure/total}`.
+    A further part sums several muscles: `to: effort.signal`, with `effort: {use: measure/total}`.
     """
 
     exponent = Parameter(
-        "1", "2 squares, 3 cubes.", default=2, bounds=(1, 10), source="definition: squared is the usual choice"
+        "1",
+        "Exponent of the signal, such as 2 or 3.",
+        default=2,
+        bounds=(1, 10),
+        source="definition: squared is the usual choice",
     )
     weight = Parameter(
         "1",
         "Weight of this muscle, such as its share of all volume.",
         default=1,
         bounds=(0, 1e6),
-        source="definition: all alike",
+        source="definition: all muscles equal",
     )
     signal = Input("1", "Excitation or activation, 0 to 1.")
 
     total = State("s", "Integral so far.")
     time = State("s", "Time since the start.")
-    rate = Output("1", "Weight times the signal's power.")
+    rate = Output("1", "Weight times the signal to the exponent.")
 
     value = Metric("s", "Integral over the run.")
     mean = Metric("1", "Integral over the duration of the run.")

@@ -4,7 +4,7 @@ from gaitsim.component import Component, Input, Metric, Output, Parameter, State
 
 
 class Fall(Component):
-    """Ends the run when a height falls below a limit, or a trunk leans too far; the step after it happened."""
+    """Detects a fall, when a height is below a limit or the trunk leans too far, and ends the run one step later."""
 
     below = Parameter("m", "The run ends below this height.", bounds=(-10, 10))
     beyond = Parameter(
@@ -14,14 +14,14 @@ class Fall(Component):
         bounds=(0, math.inf),
         source="definition: only the height counts",
     )
-    height = Input("m", "Height of what must stay up.")
+    height = Input("m", "Height that must stay above the limit.")
     lean = Input("rad", "Angle of the trunk from the vertical.", default=0)
     steps = State("1", "Steps since the start.")
     time = State("s", "Time since the start, until the fall.")
     fallen = State("1", "1 from the fall on.")
     stop = Output("1", "1 ends the run.")
 
-    value = Metric("s", "How long it stayed up: the whole run if it did not fall.")
+    value = Metric("s", "Time until the fall; without a fall, the duration of the run.")
     fell = Metric("1", "1 if it fell, else 0.")
 
     @staticmethod

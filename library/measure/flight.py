@@ -4,7 +4,7 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class Flight(Component):
-    """Flight phases of a run: how long no leg stands in each step, from one touchdown to the next of either leg."""
+    """Flight in running: time without stance in each step, from one touchdown to the next of either leg."""
 
     settle = Parameter(
         "s", "Steps that begin earlier do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
@@ -15,11 +15,11 @@ class Flight(Component):
     steps = State("1", "Time steps since the start.")
     before = State("1", "Whether each leg stood in the last time step.", size=2)
     counting = State("1", "1 in a step that counts.")
-    aloft = State("s", "Time in the air in the present step.")
-    total = State("s", "Time in the air in all steps.")
-    shortest = State("s", "Least time in the air in a step.")
-    flights = State("1", "Steps with a flight phase.")
-    count = State("1", "Steps.")
+    aloft = State("s", "Flight time in the present step.")
+    total = State("s", "Flight time in all steps.")
+    shortest = State("s", "Shortest flight in a step.")
+    flights = State("1", "Number of steps with a flight phase.")
+    count = State("1", "Number of steps.")
 
     value = Metric("1", "Share of steps with a flight phase.")
     duration = Metric("s", "Mean duration of flight in a step.")

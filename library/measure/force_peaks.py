@@ -14,7 +14,11 @@ class ForcePeaks(Component):
         "s", "Stances that begin earlier do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
     )
     threshold = Parameter(
-        "1", "The foot is loaded above this.", default=0.05, bounds=(0, 1), source="definition: 5 % of body weight"
+        "1",
+        "Load above which the foot is loaded.",
+        default=0.05,
+        bounds=(0, 1),
+        source="definition: 5 % of body weight",
     )
     depth = Parameter(
         "1", "Depth of a trough between peaks.", default=0.02, bounds=(0, 1), source="definition: 2 % of body weight"
@@ -22,10 +26,10 @@ class ForcePeaks(Component):
     load = Input("1", "Vertical ground reaction force of the leg in body weights.")
     stance = Input("1", "1 while the leg stands, such as {from: stance_r.in_stance}.")
 
-    # Every so many steps one sample; when there is no more room, every second one is dropped.
+    # One sample every `every` steps; when the array is full, every second sample is dropped and `every` doubles.
     samples = State("1", "Force of the present stance.", size=256)
-    filled = State("1", "How many samples there are.")
-    loaded = State("1", "How many there were when the foot was last loaded.")
+    filled = State("1", "Number of samples.")
+    loaded = State("1", "Number of samples when the foot was last loaded.")
     every = State("1", "Steps from one sample to the next.")
     since = State("1", "Steps since the last sample.")
     steps = State("1", "Steps since the start.")
@@ -33,15 +37,15 @@ class ForcePeaks(Component):
     counting = State("1", "1 in a stance that counts.")
     firsts = State("1", "Sum of first peaks.")
     seconds = State("1", "Sum of second peaks.")
-    troughs = State("1", "Sum of the least forces between them.")
-    pairs = State("1", "How many stances have two peaks.")
-    count = State("1", "How many stances count.")
-    greatest = State("1", "Largest force of them all.")
+    troughs = State("1", "Sum of the lowest forces between the peaks.")
+    pairs = State("1", "Number of stances with two peaks.")
+    count = State("1", "Number of stances that count.")
+    greatest = State("1", "Largest force of all stances.")
 
     value = Metric("1", "Largest force of all stances, in body weights.")
     first = Metric("1", "Mean first peak.")
     second = Metric("1", "Mean second peak.")
-    trough = Metric("1", "Mean least force between them.")
+    trough = Metric("1", "Mean lowest force between the peaks.")
     two_peaks = Metric("1", "Share of stances that have two peaks.")
 
     @staticmethod
@@ -69,7 +73,7 @@ class ForcePeaks(Component):
             x.greatest = max(x.greatest, max(x.samples[one], x.samples[two]))
             x.count = x.count + 1
         if u.stance < 0.5 and u.load <= p.threshold:
-            # In the air: what comes next may be a stance.
+            # In swing: the next contact may begin a stance that counts.
             x.filled = 0.0
             x.loaded = 0.0
             x.every = 1.0

@@ -4,15 +4,15 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class Frequency(Component):
-    """How often a signal switches on, such as touchdowns per second."""
+    """Frequency at which a signal switches on, such as touchdowns per second."""
 
     average = Parameter(
-        "1", "How many of the last periods are averaged.", default=3, bounds=(1, 15), source="thesis: last three"
+        "1", "Number of most recent periods that are averaged.", default=3, bounds=(1, 15), source="thesis: last three"
     )
     signal = Input("1", "0 or 1; an event is its rise.")
 
-    times = State("s", "The last events, one place after the other.", size=16)
-    count = State("1", "How many events there were.")
+    times = State("s", "Times of the most recent events, as a ring buffer.", size=16)
+    count = State("1", "Number of events so far.")
     time = State("s", "Time since the start.")
     steps = State("1", "Steps since the start.")
     inside = State("1", "1 if the signal was on in the last step.")

@@ -4,11 +4,11 @@ from gaitsim.component import Component, Input, Metric, Parameter, Series, State
 
 
 class GaitCurve(Component):
-    """Follows a signal over the gait cycle and compares it with a recorded curve.
+    """Comparison of a signal over the gait cycle with a recorded curve.
 
-    Each stride, from touchdown to touchdown, is brought to 101 points, 0 to 100 %; what is compared
-    is the mean over strides. `stance` is late by `delay`, so that a stride's record begins that
-    much late; what is missing at its beginning is taken from its end, where the next stride begins.
+    Each stride, from touchdown to touchdown, is resampled at 101 points, 0 to 100 %. The mean over strides is
+    compared. `stance` is late by `delay`, so the record of a stride begins late by as much; the missing
+    beginning is taken from its end, where the next stride begins.
     """
 
     curve = Series("*", "Recorded curve over the gait cycle, from touchdown to touchdown.", size=101)
@@ -16,33 +16,33 @@ class GaitCurve(Component):
         "s", "Strides that begin earlier do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
     )
     direction = Parameter(
-        "1", "-1 if the signal grows the other way.", default=1, bounds=(-1, 1), source="definition: as is"
+        "1", "-1 if the signal has the opposite sign convention.", default=1, bounds=(-1, 1), source="definition: as is"
     )
-    zero = Parameter("*", "Value of the signal that the curve calls 0.", default=0, source="definition: as is")
-    signal = Input("*", "Such as the angle of a joint.", like="curve")
+    zero = Parameter("*", "Value of the signal at which the curve is 0.", default=0, source="definition: as is")
+    signal = Input("*", "Signal, such as the angle of a joint.", like="curve")
     stance = Input("1", "1 while the leg stands, such as {from: stance_r.in_stance}.")
-    delay = Input("s", "By how much stance is late, such as {from: stance_r.delay}.", default=0)
+    delay = Input("s", "Delay of stance, such as {from: stance_r.delay}.", default=0)
 
-    # Every so many steps one sample; when there is no more room, every second one is dropped.
+    # One sample every `every` steps; when the array is full, every second sample is dropped and `every` doubles.
     samples = State("*", "The signal in the present stride.", size=512)
-    filled = State("1", "How many samples there are.")
+    filled = State("1", "Number of samples.")
     every = State("1", "Steps from one sample to the next.")
     since = State("1", "Steps since the last sample.")
-    begun = State("1", "Steps before the present stride.")
+    begun = State("1", "Number of steps before the present stride.")
     counting = State("1", "1 in a stride that counts.")
     steps = State("1", "Steps since the start.")
     before = State("1", "Whether the leg stood in the last step.")
     total = State("*", "Sum of the strides at 101 points.", size=101)
-    strides = State("1", "How many strides count.")
+    strides = State("1", "Number of strides that count.")
 
     value = Metric("1", "Correlation of the mean stride with the recorded curve.")
-    error = Metric("*", "Root of the mean square of their difference.", like="curve")
-    shape_error = Metric("*", "The same after the mean of each is taken off.", like="curve")
+    error = Metric("*", "Root mean square of their difference.", like="curve")
+    shape_error = Metric("*", "The same after subtracting the mean of each.", like="curve")
     reach = Metric("*", "Highest minus lowest value of the mean stride.", like="curve")
     highest = Metric("*", "Highest value of the mean stride.", like="curve")
-    highest_at = Metric("%", "Where in the cycle that is.")
+    highest_at = Metric("%", "Phase of that value.")
     lowest = Metric("*", "Lowest value of the mean stride.", like="curve")
-    lowest_at = Metric("%", "Where in the cycle that is.")
+    lowest_at = Metric("%", "Phase of that value.")
 
     @staticmethod
     def start(p, u, x):
@@ -52,7 +52,7 @@ class GaitCurve(Component):
     def update(p, u, x, y, dt):
         if u.stance > 0.5 and x.before < 0.5:
             if x.counting > 0.5:
-                # Samples lie at 0, 1, 2 ... times `every`; the stride ends at `long` of them.
+                # Samples are at 0, 1, 2 ... times `every`; the stride ends after `long` samples.
                 long = (x.steps - x.begun) / x.every
                 late = u.delay / (dt * x.every)
                 last = x.filled - 1

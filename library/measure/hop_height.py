@@ -4,38 +4,42 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class HopHeight(Component):
-    """How far each apex of the hip lies above the height at which it next touches down.
+    """Height of each apex of the hip above its height at the next touchdown.
 
-    A hop is an apex in the air and the touchdown that follows, with a least height between them, so
-    that a chattering contact is none. A leg with mass bends in the air: the height of the hip at
+    A hop is an apex in flight and the touchdown that follows, with a minimum height between them, so
+    that a bouncing contact does not count. A leg with mass bends in flight, so the height of the hip at
     touchdown differs from hop to hop and is measured each time.
     """
 
     average = Parameter(
         "1",
-        "How many of the last hops are averaged.",
+        "Number of most recent hops that are averaged.",
         default=3,
         bounds=(1, 16),
-        source="definition: enough to tell a trend",
+        source="definition: enough to show a trend",
     )
     least_height = Parameter(
-        "m", "Smaller hops are not counted.", default=0.005, bounds=(0, 1), source="definition: a chatter is no hop"
+        "m",
+        "Smaller hops are not counted.",
+        default=0.005,
+        bounds=(0, 1),
+        source="definition: a bouncing contact is no hop",
     )
     height = Input("m", "Height of the hip.")
     contact = Input("1", "1 in contact with the ground, else 0.")
 
-    heights = State("m", "Heights of the last hops, one place after the other.", size=16)
-    apexes = State("m", "Heights of the hip at their apexes.", size=16)
-    count = State("1", "How many hops there were.")
-    apex = State("m", "The apex that waits for its touchdown.")
-    waiting = State("1", "1 while there is one.")
+    heights = State("m", "Heights of the most recent hops, as a ring buffer.", size=16)
+    apexes = State("m", "Heights of the hip at the apexes.", size=16)
+    count = State("1", "Number of hops so far.")
+    apex = State("m", "The apex whose touchdown has not come yet.")
+    waiting = State("1", "1 while there is such an apex.")
     rising = State("1", "1 if the hip rose in the last step.")
     before = State("m", "Height of the hip one step ago.")
     inside = State("1", "1 if the last step was in contact.")
     landed = State("1", "1 from the first touchdown on.")
     landing = State("m", "Height of the hip at the last touchdown of a hop, or at the first.")
     lowest = State("m", "Least height of the hip since the first touchdown.")
-    rise = State("m", "Largest rise from the least height at that time.")
+    rise = State("m", "Largest rise above the lowest height so far.")
 
     value = Metric("m", "Mean height of the last hops: apex above touchdown.")
     spread = Metric("m", "Highest minus lowest of their apexes.")

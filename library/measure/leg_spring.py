@@ -6,17 +6,21 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 class LegSpring(Component):
     """Stiffness of a running leg as a spring, from the largest force of each contact (McMahon & Cheng 1990).
 
-    Vertical stiffness: the largest force over the fall of the center of mass from touchdown to its lowest. Leg
-    stiffness: the largest force over the compression of the leg, that fall + l_0 (1 - cos a), where the leg sweeps
-    an angle of a to either side while the body moves by 2 l_0 sin a. A contact is the time from the first load to
-    the last in a stance.
+    Vertical stiffness: the largest force over the descent of the center of mass from touchdown to its lowest point.
+    Leg stiffness: the largest force over the compression of the leg, which is that descent + l_0 (1 - cos a), where
+    the leg sweeps an angle of a to either side while the body moves by 2 l_0 sin a. A contact is the time from the
+    first load to the last in a stance.
     """
 
     settle = Parameter(
         "s", "Contacts that begin earlier do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
     )
     threshold = Parameter(
-        "1", "The foot is loaded above this.", default=0.05, bounds=(0, 1), source="definition: 5 % of body weight"
+        "1",
+        "Load above which the foot is loaded.",
+        default=0.05,
+        bounds=(0, 1),
+        source="definition: 5 % of body weight",
     )
     leg_length = Parameter("m", "l_0: length of the leg at touchdown.", bounds=(0.01, 10))
     mass = Parameter("kg", "Mass of the body.", bounds=(1e-3, 1e4))
@@ -29,10 +33,10 @@ class LegSpring(Component):
     steps = State("1", "Steps since the start.")
     inside = State("1", "1 from the first load of a stance on.")
     counting = State("1", "1 in a contact that counts.")
-    begun = State("s", "When the contact began.")
-    ended = State("s", "When the foot was loaded last.")
+    begun = State("s", "Time at which the contact began.")
+    ended = State("s", "Time at which the foot was last loaded.")
     top = State("m", "Height of the center of mass at the beginning.")
-    bottom = State("m", "Its least height since.")
+    bottom = State("m", "Its lowest height since then.")
     origin = State("m", "Its forward position at the beginning.")
     reached = State("m", "Its forward position when the foot was loaded last.")
     peak = State("1", "Largest force of the contact.")
@@ -40,13 +44,13 @@ class LegSpring(Component):
     stiffnesses = State("N/m", "Sum of leg stiffnesses.")
     verticals = State("N/m", "Sum of vertical stiffnesses.")
     compressions = State("m", "Sum of compressions.")
-    falls = State("m", "Sum of the falls of the center of mass.")
+    falls = State("m", "Sum of the descents of the center of mass.")
     durations = State("s", "Sum of durations.")
 
     value = Metric("kN/m", "Leg stiffness, mean over contacts.")
     vertical = Metric("kN/m", "Vertical stiffness, mean over contacts.")
     compression = Metric("cm", "Compression of the leg.")
-    fall = Metric("cm", "Fall of the center of mass from touchdown to its lowest.")
+    fall = Metric("cm", "Descent of the center of mass from touchdown to its lowest point.")
     contact_time = Metric("s", "Duration of a contact.")
 
     @staticmethod

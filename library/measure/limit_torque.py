@@ -4,9 +4,9 @@ from gaitsim.component import Component, Input, Metric, Output, Parameter, State
 
 
 class LimitTorque(Component):
-    """How hard a joint leans on its stops: the mean over time of their torque without its sign, and its peak.
+    """Load on the stops of a joint: mean over time and peak of their absolute torque.
 
-    Several joints are summed by a part of their own: `to: limits.signal`, with `limits: {use: measure/total}`.
+    A further part sums several joints: `to: limits.signal`, with `limits: {use: measure/total}`.
     """
 
     settle = Parameter(
@@ -18,7 +18,7 @@ class LimitTorque(Component):
     counted = State("1", "Steps that count.")
     total = State("N m", "Sum of the torque over them.")
     highest = State("N m", "Largest torque.")
-    magnitude = Output("N m", "The torque without its sign.")
+    magnitude = Output("N m", "Absolute torque.")
 
     value = Metric("N m", "Mean over time.")
     peak = Metric("N m", "Largest torque.")

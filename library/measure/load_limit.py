@@ -4,9 +4,9 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class LoadLimit(Component):
-    """By how much the vertical force on the feet exceeds a limit, in body weights, in the mean over time."""
+    """Excess of the vertical force on the feet over a limit, in body weights, averaged over time."""
 
-    limit = Parameter("1", "Force of one foot that is allowed, in body weights.", bounds=(0, 100))
+    limit = Parameter("1", "Largest allowed force on one foot, in body weights.", bounds=(0, 100))
     settle = Parameter(
         "s", "Samples before this time are ignored.", default=1, bounds=(0, 1e3), source="definition: the first stride"
     )
@@ -17,9 +17,9 @@ class LoadLimit(Component):
     counted = State("1", "Steps that count.")
     total = State("1", "Sum of the excess over them.")
     highest = State("1", "Largest force.")
-    above = State("1", "Steps with too much force on a foot.")
+    above = State("1", "Number of steps with too much force on a foot.")
 
-    value = Metric("1", "Excess over the limit, both feet together, in the mean over time.")
+    value = Metric("1", "Excess over the limit, summed over both feet and averaged over time.")
     peak = Metric("1", "Largest force on a foot.")
     share = Metric("1", "Share of the time with too much force on a foot.")
 

@@ -4,14 +4,16 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class MeanSquare(Component):
-    """The mean over time of a signal's square, or of the square of its positive or its negative part."""
+    """Mean square of a signal, or of its positive or negative part."""
 
-    unit = Parameter("*", "Value that counts as 1.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
+    unit = Parameter(
+        "*", "Scale: the value is divided by this.", default=1, bounds=(1e-12, 1e12), source="definition: SI"
+    )
     positive = Parameter(
-        "1", "1 if the positive part counts, 0 if not.", default=1, bounds=(0, 1), source="definition: all counts"
+        "1", "1 includes the positive part, 0 excludes it.", default=1, bounds=(0, 1), source="definition: included"
     )
     negative = Parameter(
-        "1", "1 if the negative part counts, 0 if not.", default=1, bounds=(0, 1), source="definition: all counts"
+        "1", "1 includes the negative part, 0 excludes it.", default=1, bounds=(0, 1), source="definition: included"
     )
     settle = Parameter(
         "s", "Samples before this time are ignored.", default=0, bounds=(0, 1e3), source="definition: the whole run"
@@ -23,7 +25,7 @@ class MeanSquare(Component):
     total = State("1", "Sum of the squares over them.")
 
     value = Metric("1", "The mean square.")
-    root = Metric("1", "Its root.")
+    root = Metric("1", "Root mean square.")
 
     @staticmethod
     def update(p, u, x, y, dt):

@@ -7,20 +7,20 @@ class Peak(Component):
     """The largest value of a signal in each contact (or over the whole run without a gate)."""
 
     average = Parameter(
-        "1", "How many of the last peaks are averaged.", default=3, bounds=(1, 16), source="thesis: last three"
+        "1", "Number of most recent peaks that are averaged.", default=3, bounds=(1, 16), source="thesis: last three"
     )
     signal = Input("*", "Any signal.")
-    gate = Input("1", "1 where a peak may be; a peak is closed when it falls to 0.", default=1)
+    gate = Input("1", "1 while peaks are measured; a peak ends when the gate falls to 0.", default=1)
 
-    samples = State("*", "The last peaks, one place after the other.", size=16)
-    count = State("1", "How many gates have closed.")
+    samples = State("*", "The most recent peaks, as a ring buffer.", size=16)
+    count = State("1", "Number of gates that have closed.")
     highest = State("*", "Peak since the gate opened.")
     inside = State("1", "1 if the gate was open in the last step.")
     greatest = State("*", "Peak since the gate opened for the first time.")
     opened = State("1", "1 once the gate has been open.")
 
     value = Metric("*", "Mean of the last peaks; without a closed gate, the peak of the open one.")
-    overall = Metric("*", "Largest value wherever the gate was open.")
+    overall = Metric("*", "Largest value while the gate was open.")
 
     @staticmethod
     def update(p, u, x, y, dt):

@@ -2,16 +2,16 @@ from gaitsim.component import Component, Input, Metric, State
 
 
 class Range(Component):
-    """Between what values a signal moves, and how far it has drifted at the end."""
+    """Range of a signal, and its drift at the end of the run."""
 
     signal = Input("*", "Any signal.")
-    lowest = State("*", "Least value so far.")
+    lowest = State("*", "Smallest value so far.")
     highest = State("*", "Largest value so far.")
     first = State("*", "Value at the start.")
     last = State("*", "Latest value.")
 
     value = Metric("*", "Highest minus lowest.")
-    low = Metric("*", "Least value.")
+    low = Metric("*", "Smallest value.")
     high = Metric("*", "Largest value.")
     change = Metric("*", "Latest minus first value.")
 

@@ -4,35 +4,39 @@ from gaitsim.component import Component, Input, Metric, Output, Parameter, State
 
 
 class Section(Component):
-    """A signal in the instants at which another passes through 0: a Poincaré section, located within the step.
+    """Poincaré section: the value of a signal at the instants when another signal crosses 0, located within the step.
 
-    An apex is where the upward velocity falls through 0, the greatest compression of a spring where the rate of its
-    length rises through it. With `stop_after` the run ends there.
+    For an apex, the upward velocity falls through 0; for the largest compression of a spring, the rate of its
+    length rises through 0. With `stop_after` the run ends there.
     """
 
     direction = Parameter(
-        "1", "1 where the crossing rises through 0, -1 where it falls.", default=1, bounds=(-1, 1), source="definition"
+        "1", "1 for rising crossings, -1 for falling ones.", default=1, bounds=(-1, 1), source="definition"
     )
     stop_after = Parameter(
-        "1", "After so many passages the run ends; 0: never.", default=0, bounds=(0, 1e9), source="definition: never"
+        "1",
+        "Number of crossings after which the run ends; 0: never.",
+        default=0,
+        bounds=(0, 1e9),
+        source="definition: never",
     )
-    signal = Input("*", "What is told of the instant.")
-    crossing = Input("*", "A continuous signal.")
+    signal = Input("*", "Signal that is recorded at the crossing.")
+    crossing = Input("*", "Continuous signal whose zero crossings define the section.")
 
-    first_signal = State("*", "The signal at the first passage.")
-    last_signal = State("*", "The signal at the last one.")
-    first_time = State("s", "When the first passage was.")
-    last_time = State("s", "When the last one was.")
-    duration = State("s", "From the last but one to the last.")
-    count = State("1", "How many passages there were.")
+    first_signal = State("*", "The signal at the first crossing.")
+    last_signal = State("*", "The signal at the last crossing.")
+    first_time = State("s", "Time of the first crossing.")
+    last_time = State("s", "Time of the last crossing.")
+    duration = State("s", "Time between the last two crossings.")
+    count = State("1", "Number of crossings so far.")
 
-    guard = Output("*", "Rises through 0 at a passage.")
-    stop = Output("1", "1 after the last passage that is asked for.")
+    guard = Output("*", "Rises through 0 at a crossing.")
+    stop = Output("1", "1 after the last requested crossing.")
 
-    value = Metric("*", "At the last passage.")
-    first = Metric("*", "At the first passage.")
-    period = Metric("s", "Time between the last two passages; up to the first, if there is one only.")
-    passages = Metric("1", "Number of passages.")
+    value = Metric("*", "The signal at the last crossing.")
+    first = Metric("*", "The signal at the first crossing.")
+    period = Metric("s", "Time between the last two crossings; with a single one, its time.")
+    passages = Metric("1", "Number of crossings.")
 
     @staticmethod
     def output(p, u, x, y):

@@ -4,7 +4,7 @@ UPRIGHT, DOWN, FORWARDS, BACKWARDS, RIGHT, LEFT = 0.0, 1.0, 2.0, 3.0, 4.0, 5.0
 
 
 def way_of(down, lean, side_lean, lean_share, side_share):
-    """Which way it fell: the lean that is furthest beyond its limit, or straight down."""
+    """Direction of the fall: the lean that is furthest beyond its limit, or straight down."""
     if down and lean_share < 0.5 and side_share < 0.5:
         return DOWN
     if side_share > lean_share:
@@ -13,10 +13,10 @@ def way_of(down, lean, side_lean, lean_share, side_share):
 
 
 class SpatialFall(Component):
-    """Ends the run when a height falls below a limit, or a trunk leans too far forwards, backwards or to a side.
+    """Detects a fall, when a height is below a limit or the trunk leans too far to any side, and ends the run.
 
-    It also tells which way: a trunk that leans by more than half of a limit as its height falls fell that way. The
-    step after it happened is the last.
+    It also reports the direction: that in which the trunk leans by more than half of the limit when the height is
+    below its limit. The run ends one step after the fall.
     """
 
     below = Parameter("m", "The run ends below this height.", bounds=(-10, 10))
@@ -34,18 +34,18 @@ class SpatialFall(Component):
         bounds=(0.01, 10),
         source="definition: 40 deg",
     )
-    height = Input("m", "Height of what must stay up.")
-    lean = Input("rad", "How far the trunk leans forwards.")
-    side_lean = Input("rad", "How far the trunk leans to its right.")
+    height = Input("m", "Height that must stay above the limit.")
+    lean = Input("rad", "Forward lean of the trunk.")
+    side_lean = Input("rad", "Lean of the trunk to its right.")
     steps = State("1", "Steps since the start.")
     time = State("s", "Time since the start, until the fall.")
     fallen = State(
         levels=("upright", "fell_down", "fell_forwards", "fell_backwards", "fell_to_the_right", "fell_to_the_left"),
-        doc="Whether it fell, and which way.",
+        doc="Whether it fell, and in which direction.",
     )
     stop = Output("1", "1 ends the run.")
 
-    value = Metric("s", "How long it stayed up: the whole run if it did not fall.")
+    value = Metric("s", "Time until the fall; without a fall, the duration of the run.")
     fell = Metric("1", "1 if it fell, else 0.")
     fell_sideways = Metric("1", "1 if it fell to a side, else 0.")
 

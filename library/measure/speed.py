@@ -4,19 +4,21 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class Speed(Component):
-    """Mean forward speed after a time in which the gait settles, and the total distance covered."""
+    """Mean forward speed after the gait has settled, and total distance."""
 
-    settle = Parameter("s", "The mean begins here.", default=2, bounds=(0, 1e3), source="definition: two strides")
+    settle = Parameter(
+        "s", "The mean is taken from this time on.", default=2, bounds=(0, 1e3), source="definition: two strides"
+    )
     position = Input("m", "Forward position, such as that of the pelvis.")
 
     steps = State("1", "Steps since the start.")
     time = State("s", "Time of the last position.")
     origin = State("m", "Position at the start.")
     begin = State("m", "Position where the mean begins.")
-    begin_time = State("s", "When that was.")
+    begin_time = State("s", "Time at which the mean begins.")
     last = State("m", "Last position.")
 
-    value = Metric("m/s", "Mean speed after settling; none if the run ends before.")
+    value = Metric("m/s", "Mean speed after settling; no value if the run ends before.")
     distance = Metric("m", "Distance from the start to the end of the run.")
 
     @staticmethod

@@ -4,33 +4,31 @@ from gaitsim.component import Component, Input, Metric, Output, Parameter, State
 
 
 class Stance(Component):
-    """Tells stance from swing of one leg by its load, and counts strides from touchdown to touchdown.
+    """Stance and swing of one leg from its load, and number of strides from touchdown to touchdown.
 
-    A change counts once it has lasted for `hold`, so that neither a scuff in swing nor a bounce at
-    touchdown is a step. Touchdown and take-off are both told that much late: durations are right.
+    A change counts once it has lasted for `hold`, so that neither a scuff in swing nor a bounce at touchdown
+    counts as a step. Touchdown and take-off are both late by this time, so durations are correct.
     """
 
     threshold = Parameter(
-        "1", "A leg with more load stands.", default=0.05, bounds=(0, 1), source="definition: 5 % of body weight"
+        "1", "Load above which the leg stands.", default=0.05, bounds=(0, 1), source="definition: 5 % of body weight"
     )
-    hold = Parameter(
-        "s", "A change of shorter duration is none.", default=0.02, bounds=(0, 1), source="definition: a bounce"
-    )
+    hold = Parameter("s", "Shorter changes are ignored.", default=0.02, bounds=(0, 1), source="definition: a bounce")
     load = Input("1", "Vertical ground reaction force in body weights.")
 
     phase = State(levels=("swing", "stance"), doc="Phase of the leg.")
-    waiting = State("1", "Steps for which the load has said otherwise.")
-    late = State("s", "By how much the last change was told late.")
+    waiting = State("1", "Number of steps for which the load has contradicted the phase.")
+    late = State("s", "Delay with which the last change was detected.")
     steps = State("1", "Steps since the start.")
-    touchdowns = State("1", "How many touchdowns there were.")
+    touchdowns = State("1", "Number of touchdowns so far.")
     first = State("s", "Time of the first touchdown.")
-    last = State("s", "Time of the last one.")
+    last = State("s", "Time of the last touchdown.")
 
     in_stance = Output("1", "1 in stance, 0 in swing.")
-    delay = Output("s", "By how much in_stance is late.")
+    delay = Output("s", "Delay of in_stance.")
 
     value = Metric("1", "Number of whole strides.")
-    stride_time = Metric("s", "Their mean duration.")
+    stride_time = Metric("s", "Mean duration of a stride.")
 
     @staticmethod
     def start(p, u, x):
@@ -46,7 +44,7 @@ class Stance(Component):
         standing = 1.0 if u.load > p.threshold else 0.0
         x.waiting = x.waiting + 1 if standing != x.phase else 0.0
         x.steps = x.steps + 1
-        # A whole number of steps that rounding made a little longer is still that number.
+        # The tolerance keeps a whole number of steps whole in spite of rounding.
         if x.waiting > 0 and x.waiting * dt >= p.hold - 1e-6 * dt:
             x.late = x.waiting * dt
             x.waiting = 0.0

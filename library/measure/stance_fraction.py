@@ -4,7 +4,7 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class StanceFraction(Component):
-    """Share of a stride in which a leg stands, and in which both stand or none, over whole strides."""
+    """Shares of the stride in stance, double support and flight, over whole strides."""
 
     settle = Parameter(
         "s", "Strides that begin earlier do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"

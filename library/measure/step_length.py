@@ -4,7 +4,7 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class StepLength(Component):
-    """How far ahead of the other foot's last print a foot is set down."""
+    """Step length: distance of a foot at touchdown in front of the last print of the other foot."""
 
     settle = Parameter(
         "s", "Earlier touchdowns do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
@@ -16,16 +16,16 @@ class StepLength(Component):
 
     steps = State("1", "Steps since the start.")
     before = State("1", "Whether each leg stood in the last step.", size=2)
-    printed = State("m", "Where each foot was set down last.", size=2)
+    printed = State("m", "Position of each foot at its last touchdown.", size=2)
     prints = State("1", "1 for a foot that has been set down.", size=2)
     total = State("m", "Sum of the lengths of the steps that end with each leg's touchdown.", size=2)
-    count = State("1", "How many they were.", size=2)
+    count = State("1", "Number of those steps.", size=2)
 
-    value = Metric("m", "Mean over both legs.")
-    left_length = Metric("m", "Mean of the steps that end with the left foot.")
-    right_length = Metric("m", "Mean of the steps that end with the right foot.")
-    stride_length = Metric("m", "A left and a right step.")
-    asymmetry = Metric("1", "Difference of left and right over their mean, without sign.")
+    value = Metric("m", "Mean step length of both legs.")
+    left_length = Metric("m", "Mean length of steps that end with the left foot.")
+    right_length = Metric("m", "Mean length of steps that end with the right foot.")
+    stride_length = Metric("m", "Length of a left and a right step.")
+    asymmetry = Metric("1", "Absolute difference of left and right over their mean.")
 
     @staticmethod
     def start(p, u, x):

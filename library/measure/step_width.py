@@ -4,17 +4,17 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 def distance_from_line(x, y, x_from, y_from, x_to, y_to):
-    """How far a point is from the line through two others; nan if these are one."""
+    """Distance of a point from the line through two others; nan if these coincide."""
     along = math.sqrt((x_to - x_from) ** 2 + (y_to - y_from) ** 2)
     cross = (x_to - x_from) * (y - y_from) - (y_to - y_from) * (x - x_from)
     return abs(cross) / along if along > 0 else math.nan
 
 
 class StepWidth(Component):
-    """How far apart the feet are set down sideways (Huxham et al. 2006).
+    """Step width (Huxham et al. 2006).
 
-    It is the distance of the print of one foot from the line between the prints of the other foot before and after
-    it, so that it does not depend on the way the walker goes.
+    It is the distance of the print of one foot from the line between the previous and the next print of the other
+    foot, so that it does not depend on the direction of walking.
     """
 
     settle = Parameter(
@@ -29,16 +29,16 @@ class StepWidth(Component):
 
     steps = State("1", "Steps since the start.")
     before = State("1", "Whether each leg stood in the last step.", size=2)
-    forward = State("m", "Where each foot was set down last, forwards.", size=2)
-    aside = State("m", "Where each foot was set down last, to the left.", size=2)
+    forward = State("m", "Forward position of each foot at its last touchdown.", size=2)
+    aside = State("m", "Position of each foot at its last touchdown, to the left.", size=2)
     prints = State("1", "1 for a foot that has been set down.", size=2)
     between = State("1", "1 for a foot that has been set down since the other one was.", size=2)
     total = State("m", "Sum of the widths.")
     squares = State("m^2", "Sum of their squares.")
-    count = State("1", "How many they were.")
+    count = State("1", "Number of widths.")
 
-    value = Metric("m", "Mean.")
-    deviation = Metric("m", "Standard deviation from step to step.")
+    value = Metric("m", "Mean step width.")
+    deviation = Metric("m", "Standard deviation over steps.")
 
     @staticmethod
     def start(p, u, x):

@@ -4,14 +4,14 @@ from gaitsim.component import Component, Input, Metric, State
 
 
 class StoredEnergy(Component):
-    """Elastic energy that is there before the run begins, and the height that it could lift the model to."""
+    """Elastic energy at the start of the run, and the height to which it could lift the model."""
 
     energy = Input("J", "Sum of elastic energies, such as {from: elastic.total}.")
-    weight = Input("N", "Weight of all that moves, such as {from: elastic.weight}.")
+    weight = Input("N", "Weight of the whole model, such as {from: elastic.weight}.")
     stored = State("J", "Energy at the start.")
     lifted = State("N", "Weight at the start.")
 
-    value = Metric("m", "Energy at the start over the weight; nothing without gravity.")
+    value = Metric("m", "Energy at the start over the weight; 0 without gravity.")
     energy_at_start = Metric("J", "Energy at the start.")
 
     @staticmethod

@@ -4,26 +4,26 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class StrideRange(Component):
-    """Between what values a signal moves within a stride, in the mean over strides: a pelvis' obliquity, say."""
+    """Range of a signal within a stride, such as pelvic obliquity; mean over strides."""
 
     settle = Parameter(
         "s", "Strides that begin earlier do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
     )
     signal = Input("*", "Any signal.")
-    stance = Input("1", "1 while a leg stands, such as {from: stance_r.in_stance}; its touchdowns part the strides.")
+    stance = Input("1", "1 while a leg stands, such as {from: stance_r.in_stance}; its touchdowns delimit the strides.")
 
     steps = State("1", "Steps since the start.")
     before = State("1", "Whether the leg stood in the last step.")
     counted = State(levels=("no", "yes"), doc="Whether the present stride counts.")
-    lowest = State("*", "Least value in this stride.")
+    lowest = State("*", "Smallest value in this stride.")
     highest = State("*", "Largest value in this stride.")
-    low_sum = State("*", "Sum of the least values.")
+    low_sum = State("*", "Sum of the smallest values.")
     high_sum = State("*", "Sum of the largest values.")
-    count = State("1", "How many strides counted.")
+    count = State("1", "Number of strides that counted.")
 
-    value = Metric("*", "Highest minus lowest.")
-    low = Metric("*", "Least value.")
-    high = Metric("*", "Largest value.")
+    value = Metric("*", "Mean of highest minus lowest value.")
+    low = Metric("*", "Mean of the smallest value.")
+    high = Metric("*", "Mean of the largest value.")
 
     @staticmethod
     def start(p, u, x):

@@ -10,10 +10,10 @@ class SwingAngle(Component):
         "s", "Swings that begin earlier do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
     )
     direction = Parameter(
-        "1", "-1 if the angle of the joint grows the other way.", default=1, bounds=(-1, 1), source="definition: as is"
+        "1", "-1 if the joint has the opposite sign convention.", default=1, bounds=(-1, 1), source="definition: as is"
     )
     zero = Parameter(
-        "rad", "The joint's own angle that is called 0.", default=0, bounds=(-7, 7), source="definition: as is"
+        "rad", "Angle of the joint that counts as 0.", default=0, bounds=(-7, 7), source="definition: as is"
     )
     angle = Input("rad", "Angle of the joint.")
     stance = Input("1", "1 while the leg stands, such as {from: stance_r.in_stance}.")
@@ -23,12 +23,12 @@ class SwingAngle(Component):
     counting = State("1", "1 in a swing that counts.")
     highest = State("rad", "Largest angle of the present swing.")
     total = State("rad", "Sum over the swings that have ended.")
-    greatest = State("rad", "Largest of them.")
-    count = State("1", "How many they were.")
+    greatest = State("rad", "Largest angle so far.")
+    count = State("1", "Number of those swings.")
 
     value = Metric("deg", "Mean of the largest angles of all swings.")
-    largest = Metric("deg", "The largest of them.")
-    swings = Metric("1", "How many swings count.")
+    largest = Metric("deg", "Largest angle of all swings.")
+    swings = Metric("1", "Number of swings that count.")
 
     @staticmethod
     def start(p, u, x):

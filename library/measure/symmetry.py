@@ -4,25 +4,25 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class Symmetry(Component):
-    """How unlike left and right are: the symmetry index of the mean size of a signal, 0 if they are alike.
+    """Symmetry index of the mean absolute value of a signal on the left and the right; 0 if they are equal.
 
-    Over whole minutes this compares what the legs do on average, not when they do it.
+    It compares averages over the run, not the timing of the legs.
     """
 
     settle = Parameter(
         "s", "Samples before this time are ignored.", default=2, bounds=(0, 1e3), source="definition: two strides"
     )
     left = Input("*", "The signal of the left leg.")
-    right = Input("*", "The same of the right leg.")
+    right = Input("*", "The same signal of the right leg.")
 
     steps = State("1", "Steps since the start.")
     counted = State("1", "Steps that count.")
-    lefts = State("*", "Sum of the left signal without its sign.")
-    rights = State("*", "Sum of the right one.")
+    lefts = State("*", "Sum of the absolute left signal.")
+    rights = State("*", "Sum of the absolute right signal.")
 
-    value = Metric("1", "Difference of the means over their mean, without sign; 2 if one leg does nothing.")
-    left_mean = Metric("*", "Mean of the left signal without its sign.")
-    right_mean = Metric("*", "Mean of the right one.")
+    value = Metric("1", "Absolute difference of the means over their mean; 2 if one signal is 0.")
+    left_mean = Metric("*", "Mean absolute left signal.")
+    right_mean = Metric("*", "Mean absolute right signal.")
 
     @staticmethod
     def update(p, u, x, y, dt):

@@ -4,12 +4,12 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class Total(Component):
-    """The sum of all signals that are sent here, such as the effort of every muscle: its mean over time and peak."""
+    """Sum of several signals, such as the efforts of all muscles: its mean over time and its peak."""
 
     settle = Parameter(
         "s", "Samples before this time are ignored.", default=0, bounds=(0, 1e3), source="definition: the whole run"
     )
-    signal = Input("*", "What is summed; senders write to: this.signal.", sums=True)
+    signal = Input("*", "Signals that are summed; connected by to: of their parts.", sums=True)
 
     steps = State("1", "Steps since the start.")
     counted = State("1", "Steps that count.")

@@ -4,10 +4,10 @@ from gaitsim.component import Component, Input, Metric, Parameter, State
 
 
 class Work(Component):
-    """The work of a unit along its path in a stride: given while the path shortens, taken while it lengthens.
+    """Work of a muscle-tendon unit per stride: positive while its path shortens, negative while it lengthens.
 
-    Whole strides count, from touchdown to touchdown. The net work of a spring in them is not above zero, but for
-    what it holds more at the first touchdown than at the last.
+    Only whole strides count, from touchdown to touchdown. The net work of a spring is not above 0, apart from the
+    energy that it holds at the first touchdown beyond that at the last.
     """
 
     settle = Parameter(
@@ -20,17 +20,17 @@ class Work(Component):
     steps = State("1", "Steps since the start.")
     before = State("1", "Whether the leg stood in the last step.")
     counting = State("1", "1 from the first touchdown that counts.")
-    strides = State("1", "How many strides count.")
+    strides = State("1", "Number of strides that count.")
     force_before = State("N", "Force one step ago.")
     length_before = State("m", "Length one step ago.")
-    positive = State("J", "Work given since the first touchdown that counts.")
-    negative = State("J", "Work taken since then.")
-    given_until = State("J", "Work given until the last touchdown.")
-    taken_until = State("J", "Work taken until then.")
+    positive = State("J", "Positive work since the first touchdown that counts.")
+    negative = State("J", "Negative work since the first touchdown that counts.")
+    given_until = State("J", "Positive work until the last touchdown.")
+    taken_until = State("J", "Negative work until the last touchdown.")
 
-    value = Metric("J", "Net work in a stride: given less taken.")
-    given = Metric("J", "Work given in a stride.")
-    taken = Metric("J", "Work taken in a stride.")
+    value = Metric("J", "Net work per stride.")
+    given = Metric("J", "Positive work per stride.")
+    taken = Metric("J", "Negative work per stride, as a positive number.")
 
     @staticmethod
     def start(p, u, x):

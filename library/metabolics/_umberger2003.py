@@ -28,12 +28,12 @@ FAST_SHORTENING_HEAT = Parameter(
 
 
 def heat_level(excitation, activation):
-    """A: the excitation while it exceeds the activation, else the mean of both."""
+    """A: the excitation where it exceeds the activation, otherwise the mean of both."""
     return excitation if excitation > activation else 0.5 * (excitation + activation)
 
 
 def heat_per_mass(p, level, slow, velocity, length, isometric_force):
-    """Heat rate per mass of muscle, at least `least_heat`; `slow` is the active fraction of slow fibers."""
+    """Heat rate per muscle mass, at least `least_heat`; `slow` is the fraction of slow fibers among the active ones."""
     maintenance = p.aerobic * level**0.6 * (p.fast_heat * (1 - slow) + p.slow_heat)
     slow_rise = -2.5 * p.slow_shortening_heat * velocity / p.max_contraction_velocity
     if velocity <= 0:

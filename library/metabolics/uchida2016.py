@@ -19,7 +19,7 @@ class Uchida2016(Component):
 
     Slow fibers are recruited first: the fraction of slow ones among those that are active is
     r sin(pi u / 2) / [r sin(pi u / 2) + (1 - r) (1 - cos(pi u / 2))], 1 at u = 0. Negative work counts, but
-    total power does not fall below 0: what a lengthening fiber takes up becomes heat.
+    total power does not fall below 0: the energy absorbed by a lengthening fiber becomes heat.
     """
 
     max_isometric_force = Parameter("N", "F_max of the muscle.", bounds=(1, 1e6))

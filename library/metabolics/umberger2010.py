@@ -15,7 +15,7 @@ from ._umberger2003 import (
 class Umberger2010(Component):
     """Metabolic power of Umberger et al. (2003) as changed by Umberger (2010).
 
-    A lengthening fiber gives the heat S A 0.3 alpha_S v rather than 4 alpha_S v, and no negative work.
+    While the fiber lengthens, its heat is S A 0.3 alpha_S v instead of S A 4 alpha_S v, and negative work is left out.
     """
 
     max_isometric_force = Parameter("N", "F_max of the muscle.", bounds=(1, 1e6))

@@ -10,7 +10,7 @@ class Wang2012(Component):
 
     A' = m [40 r sin(pi u/2) + 133 (1 - r) (1 - cos(pi u/2))]; M' likewise with 74, 111 and the activation a
     for u, times 1 at the optimal length, 0.5 at half of it, 0 at 1.5; S' = 0.25 F |v| and W' = F |v| while the
-    fiber shortens. The body's rest is 1.51 W/kg in that paper.
+    fiber shortens. The basal power in that paper is 1.51 W/kg.
     """
 
     max_isometric_force = Parameter("N", "F_max of the muscle.", bounds=(1, 1e6))

@@ -2,7 +2,7 @@
 
 from gaitsim.component import Input, Parameter, Part
 
-# The measurement by which the largest step of a muscle is found.
+# How the largest step of a muscle is measured.
 STEP_MEASURE = (
     "Force within 2 % of F_max of that at 5 us at every instant: an isometric contraction and relaxation, "
     "stretches and releases at half v_max at A = 0.01 and 0.5, 0.3 F_max lifted; soleus, vasti, hip flexors."
@@ -50,5 +50,5 @@ PATH_LENGTH = Input(
 
 
 def look_ahead(stiffness):
-    """Instant within a step at which the force balance is solved: 1/2 for slow changes, towards 1 for fast ones."""
+    """Share of a step after which the force balance is solved: 1/2 for slow changes, towards 1 for fast ones."""
     return (3 + stiffness) / (6 + stiffness)

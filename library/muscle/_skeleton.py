@@ -2,21 +2,21 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, Part
 
 
 def force_length(length, width):
-    """f_l = max(0, 1 - ((l - 1) / w)^2): a parabola, as a beginning."""
+    """f_l = max(0, 1 - ((l - 1) / w)^2): a parabola, as a starting point."""
     return max(0.0, 1 - ((length - 1) / width) ** 2)
 
 
 def force_velocity(velocity, eccentric):
-    """f_v for v in v_max, shortening negative: straight down to 0 at -1, up to `eccentric` while it lengthens."""
+    """f_v for v in v_max, shortening negative: linear to 0 at -1, and to `eccentric` at 1."""
     if velocity < 0:
         return max(0.0, 1 + velocity)
     return min(eccentric, 1 + velocity)
 
 
 class Skeleton(Component):
-    """A muscle with a rigid tendon, F = F_max A f_l(l) f_v(v); write here what yours computes, and by which paper.
+    """A muscle with a rigid tendon, F = F_max A f_l(l) f_v(v); replace it by your equations, and cite their paper.
 
-    All that kind.yaml asks for is declared below; what else your muscle has, declare likewise.
+    Everything that kind.yaml requires is declared below; declare further parameters and states of your muscle likewise.
     """
 
     max_isometric_force = Parameter("N", "F_max.", bounds=(1, 1e6))
@@ -48,7 +48,7 @@ class Skeleton(Component):
     )
     metabolics = Part(
         "metabolics",
-        "Metabolic power; a spec that wants it says which.",
+        "Metabolic power; optional, chosen by the spec.",
         optional=True,
         sends=(
             ("excitation", "excitation"),

@@ -20,7 +20,7 @@ def tendon_stiffness(strain_at_max):
 
 
 def tendon_force(strain, stiffness):
-    """f_T: exponential; unlike the published one it does not push where it is slack."""
+    """f_T: exponential; unlike the published curve it is never negative."""
     return 0.2 * (math.exp(stiffness * max(0.0, strain)) - 1)
 
 
@@ -40,7 +40,7 @@ def velocity_after(velocity, strain, loss, stiffness, cosine, beside, strength):
         force, slope = force_and_slope(velocity)
         step = (pull / cosine - beside - strength * force) / (yielding / cosine + strength * slope)
         after = velocity + step
-        # f_v bends at -1 and at 1: a step ends there first.
+        # f_v has kinks at -1 and at 1: an iteration stops there first.
         if (velocity + 1) * (after + 1) < 0:
             after = -1.0
         elif (velocity - 1) * (after - 1) < 0:
@@ -116,7 +116,7 @@ class DeGroote2016(Component):
 
     @staticmethod
     def start(p, u, x):
-        # At rest the residual of the force balance grows with the fiber length, so it has one root: bisection.
+        # At rest the residual of the force balance grows with the fiber length, so it has one root, found by bisection.
         width = p.optimal_fiber_length * math.sin(p.pennation_angle)
         stiffness = tendon_stiffness(p.tendon_strain)
         low, high = p.min_fiber_length * p.optimal_fiber_length, max(u.path_length, p.optimal_fiber_length)
@@ -161,8 +161,8 @@ class DeGroote2016(Component):
 
     @staticmethod
     def update(p, u, x, y, dt):
-        # A fiber that yields, at low activation, follows its tendon in less than a step; hence the balance
-        # is that of a moment within the step, with the path and what the fiber can hold going on as they do.
+        # At low activation a fiber follows its tendon within less than a step. The force balance is therefore solved
+        # at an instant within the step, to which the path and the force of the fiber are extrapolated linearly.
         cosine, stiffness = math.cos(y.pennation), tendon_stiffness(p.tendon_strain)
         v_max = p.max_contraction_velocity * p.optimal_fiber_length
         slope = force_and_slope(min(1.0, max(-1.0, y.normalized_fiber_velocity)))[1]
@@ -182,7 +182,7 @@ class DeGroote2016(Component):
             max(0.5 * strength, strength + ahead * (strength - x.strength_before)),
         )
         x.strength_before, x.beside_before = strength, beside
-        # A pennation of acos(0.1) at most, as OpenSim has it.
+        # The pennation is at most acos(0.1), as in OpenSim.
         widest = math.sin(p.pennation_angle) / math.sqrt(0.99)
         shortest = max(p.min_fiber_length, widest) * p.optimal_fiber_length
         x.length = max(shortest, x.length + velocity * v_max * dt)

@@ -27,12 +27,12 @@ class Geyer2003(Component):
     """Hill-type muscle-tendon unit: a contractile element in series with a quadratic tendon.
 
     F = F_max (eps / eps_ref)^2 = A F_max f_l f_v, with l_CE integrated from f_v's inverse. No
-    parallel elasticity (Geyer et al. 2003). It starts with the tendon just taut.
+    parallel elasticity (Geyer et al. 2003). At the start the tendon is just taut.
     """
 
     max_isometric_force = Parameter("N", "F_max.", bounds=(1, 1e6))
     optimal_fiber_length = Parameter("m", "l_opt.", bounds=(1e-3, 1))
-    tendon_slack_length = Parameter("m", "l_rest.", bounds=(1e-3, 2))
+    tendon_slack_length = Parameter("m", "l_rest: slack length of the tendon.", bounds=(1e-3, 2))
     max_contraction_velocity = Parameter(
         "1/s", "v_max in optimal fiber lengths per second.", default=12, bounds=(1, 50), source="geyer2003"
     )
@@ -68,7 +68,7 @@ class Geyer2003(Component):
     excitation = Input("1", "Sum of all stimulations.", sums=True)
     activation_level = Input("1", "Activation.")
     path_length = PATH_LENGTH
-    hold = Input("1", "1 holds the fiber where the tendon is just taut: a leg in the air.", default=0)
+    hold = Input("1", "1 keeps the fiber at the length at which the tendon is just taut, as in flight.", default=0)
 
     length = State("m", "Length of the contractile element, l_CE.")
 

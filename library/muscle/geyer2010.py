@@ -25,12 +25,12 @@ def velocity_from_force(ratio, eccentric, curvature):
 
 
 def parallel_force(length, width):
-    """F_PE / F_max = ((l - 1) / w)^2 for l > 1: a spring beside the contractile element."""
+    """F_PE / F_max = ((l - 1) / w)^2 for l > 1: a spring parallel to the contractile element."""
     return (max(0.0, length - 1) / width) ** 2
 
 
 def buffer_force(length, width):
-    """F_BE / F_max = ((l - (1 - w)) / (w / 2))^2 for l < 1 - w: keeps the element from collapsing."""
+    """F_BE / F_max = ((l - (1 - w)) / (w / 2))^2 for l < 1 - w: keeps the contractile element from collapsing."""
     return (max(0.0, 1 - width - length) / (width / 2)) ** 2
 
 
@@ -60,7 +60,7 @@ def velocity_after(velocity, strain, loss, strength, buffer, eccentric, curvatur
         force, slope = force_velocity(velocity, eccentric, curvature)
         step = (pull * pull + buffer - strength * force) / (2 * pull * loss + strength * slope)
         after = max(-1.0, velocity + step)
-        # f_v bends at 0 and at 1: a step ends there first.
+        # f_v has kinks at 0 and at 1: an iteration stops there first.
         if velocity * after < 0:
             after = 0.0
         elif (velocity - 1) * (after - 1) < 0:
@@ -100,18 +100,18 @@ class Geyer2010(Component):
 
     longest_substep = Parameter(
         "ms",
-        "A longer step is made in equal parts no longer than this, over which path and activation go on as they did.",
+        "Longer steps are divided into equal substeps of at most this; path and activation are extrapolated linearly.",
         default=1,
         bounds=(1e-3, 100),
-        source="definition: half of it makes no trial of largest_step better",
+        source="definition: halving it improves no case of largest_step",
     )
 
     largest_step = StepLimit(
         "ms",
         "Force within 6 % of F_max of that at 5 us at every instant, at 1 ms within 2.5 %, at 0.5 ms within 1.5 %: an "
         "isometric contraction and relaxation, stretches and releases at half v_max at A = 0.01 and 0.5, 0.3 F_max "
-        "lifted; soleus, vasti, hip flexors. What is left is the first step after a jump of the excitation, and "
-        "Euler's error of the lift.",
+        "lifted; soleus, vasti, hip flexors. The remaining error is that of the first step after a jump of the "
+        "excitation, and Euler's error of the lift.",
         2,
     )
 
@@ -169,7 +169,7 @@ class Geyer2010(Component):
 
     @staticmethod
     def start(p, u, x):
-        # At rest the residual of the force balance grows with the fiber length, so it has one root: bisection.
+        # At rest the residual of the force balance grows with the fiber length, so it has one root, found by bisection.
         low, high = p.min_fiber_length * p.optimal_fiber_length, max(u.path_length, p.optimal_fiber_length)
         for _ in range(60):
             middle = 0.5 * (low + high)
@@ -209,8 +209,8 @@ class Geyer2010(Component):
 
     @staticmethod
     def update(p, u, x, y, dt):
-        # A fiber that yields, at low activation, follows its tendon in less than a step; hence the balance
-        # is that of a moment within the step, with the path and what the fiber can hold going on as they do.
+        # At low activation a fiber follows its tendon within less than a step. The force balance is therefore solved
+        # at an instant within the step, to which the path and the force of the fiber are extrapolated linearly.
         tendon = p.tendon_slack_length * p.tendon_strain
         v_max = p.max_contraction_velocity * p.optimal_fiber_length
         shortest = p.min_fiber_length * p.optimal_fiber_length

@@ -76,7 +76,7 @@ def bezier_slope(u, p0, p1, p2, p3):
 
 
 def bezier_parameter(x, p0, p1, p2, p3):
-    """u where an increasing Bezier polynomial is x: three of Halley's steps leave 1e-12 of its rise."""
+    """u where an increasing Bezier polynomial is x, by three Halley steps, to 1e-12 of its rise."""
     rise, whole = x - p0, p3 - p0
     a, b = 5 * (p1 - p0), 5 * (p2 - p0)
     c, d = 2 * a - 3 * b, b - a + whole
@@ -106,7 +106,7 @@ def value_and_slope(x, section):
 
 
 def value_and_area(x, section):
-    """y of one section at x, and its integral over x from the section's begin."""
+    """y of one section at x, and its integral over x from the beginning of the section."""
     u = bezier_parameter(x, section[0], section[1], section[2], section[3])
     area = 0.0
     for node, weight in GAUSS:
@@ -171,7 +171,7 @@ def tendon_force(strain):
 
 
 def velocity_section(first, second, third):
-    """The section of f_v for the answers to: before -0.9, before 0, before 0.9?"""
+    """The section of f_v, from whether v is below -0.9, below 0 and below 0.9."""
     return VELOCITY[0] if first else VELOCITY[1] if second else VELOCITY[2] if third else VELOCITY[3]
 
 
@@ -281,7 +281,7 @@ class Millard2012(Component):
 
     @staticmethod
     def start(p, u, x):
-        # At rest the residual of the force balance grows with the fiber length, so it has one root: bisection.
+        # At rest the residual of the force balance grows with the fiber length, so it has one root, found by bisection.
         width = p.optimal_fiber_length * math.sin(p.pennation_angle)
         low, high = p.min_fiber_length * p.optimal_fiber_length, max(u.path_length, p.optimal_fiber_length)
         for _ in range(60):
@@ -326,8 +326,8 @@ class Millard2012(Component):
 
     @staticmethod
     def update(p, u, x, y, dt):
-        # A fiber that yields, at low activation, follows its tendon in less than a step; hence the balance
-        # is that of a moment within the step, with the path and what the fiber can hold going on as they do.
+        # At low activation a fiber follows its tendon within less than a step. The force balance is therefore solved
+        # at an instant within the step, to which the path and the force of the fiber are extrapolated linearly.
         cosine, tendon_length = math.cos(y.pennation), p.tendon_slack_length * p.tendon_strain
         v_max = p.max_contraction_velocity * p.optimal_fiber_length
         strength = y.normalized_isometric_force * u.activation_level

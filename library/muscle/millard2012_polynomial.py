@@ -4,7 +4,7 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, 
 
 from ._hill import METABOLICS, PATH_LENGTH, PENNATE_PATH, PENNATION_ANGLE, STEP_MEASURE, look_ahead
 
-# Powers are written as products, which plain Python and native code round alike.
+# Powers are written as products, which round identically in Python and in native code.
 TENDON_SQUARE, TENDON_LINEAR = 260.972, 7.9706  # c_T1, c_T2
 ACTIVE_CUBE, ACTIVE_SQUARE = 1.5, -2.75  # c_L1, c_L2
 SHORTEST, LONGEST = 0.46899, 1.80528  # r_1, r_2: where f_l vanishes
@@ -13,7 +13,7 @@ PASSIVE_CUBE, PASSIVE_SQUARE = 1.08027, 1.27368  # c_P1, c_P2
 
 
 def active_force(length):
-    """f_l of the active fiber, between r_1 and r_2; never below 0, as it would be by rounding of these two."""
+    """f_l of the active fiber, between r_1 and r_2; never negative, which rounding of r_1 and r_2 would allow."""
     x = length - 1
     return max(0.0, ACTIVE_CUBE * (x * x * x) + ACTIVE_SQUARE * (x * x) + 1) if SHORTEST < length < LONGEST else 0.0
 
@@ -75,15 +75,15 @@ def velocity_from_force(force, active, damping):
         return 2 * CONCENTRIC * (force - active) / (linear + root)
     linear = force - MOST * active - damping * ECCENTRIC
     root = math.sqrt(linear * linear + 4 * damping * ECCENTRIC * (force - active))
-    # Either form of the root; the other one would lose digits.
+    # The form of the root is chosen to avoid cancellation.
     return (linear + root) / (2 * damping) if linear > 0 else 2 * ECCENTRIC * (force - active) / (root - linear)
 
 
 def velocity_after(velocity, strain, loss, cosine, beside, strength, damping):
     """Velocity at which the balance holds if the tendon has `strain` - `loss` v.
 
-    A tendon linear about the last velocity is a damper more. As the tendon stiffens with its strain, it pulls no less
-    than that, so that velocities rise to the right one.
+    Linearized about the last velocity, the tendon acts as an additional damper. The tendon stiffens with strain, so
+    it pulls at least as hard as its linearization, and the iterates increase towards the solution.
     """
     for _ in range(20):
         before = strain - loss * velocity
@@ -164,7 +164,7 @@ class Millard2012Polynomial(Component):
 
     @staticmethod
     def start(p, u, x):
-        # At rest the residual of the force balance grows with the fiber length, so it has one root: bisection.
+        # At rest the residual of the force balance grows with the fiber length, so it has one root, found by bisection.
         width = p.optimal_fiber_length * math.sin(p.pennation_angle)
         low, high = p.min_fiber_length * p.optimal_fiber_length, max(u.path_length, p.optimal_fiber_length)
         for _ in range(60):
@@ -208,8 +208,8 @@ class Millard2012Polynomial(Component):
 
     @staticmethod
     def update(p, u, x, y, dt):
-        # A fiber that yields, at low activation, follows its tendon in less than a step; hence the balance
-        # is that of a moment within the step, with the path and what the fiber can hold going on as they do.
+        # At low activation a fiber follows its tendon within less than a step. The force balance is therefore solved
+        # at an instant within the step, to which the path and the force of the fiber are extrapolated linearly.
         cosine = math.cos(y.pennation)
         v_max = p.max_contraction_velocity * p.optimal_fiber_length
         strength = y.normalized_isometric_force * u.activation_level

@@ -2,15 +2,15 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, 
 
 
 def stretch_beyond(length, rest_length):
-    """How far a spring is stretched; it never pushes."""
+    """Stretch of a spring; 0 if it is slack."""
     return max(0.0, length - rest_length)
 
 
 class SeriesElasticClutch(Component):
-    """A clutch in series with a spring: a tendon whose muscle fiber holds still or is slack, and does no work.
+    """A clutch in series with a spring: a tendon whose muscle fiber is either isometric or slack, and does no work.
 
-    The clutch of Endo & Herr (2009) in a law of our own, as theirs is not to be read: while it is disengaged the
-    unit is slack, F = 0. While it is engaged, F = k max(0, l - l_0), where l_0 is the least length of the path since
+    It follows the clutch of Endo & Herr (2009); its law is our own, because theirs is not published. While the clutch
+    is disengaged, F = 0. While it is engaged, F = k max(0, l - l_0), where l_0 is the least length of the path since
     then: slack is taken up without force, stretch is held, and a path that shortens gets all energy back. A clutch
     that is released under load dissipates what the spring holds. The clutch is engaged while the excitation is above
     one half. The force has no time constant, and the pull is along the path: a path with a pennation
@@ -36,7 +36,7 @@ class SeriesElasticClutch(Component):
     )
     metabolics = Part(
         "metabolics",
-        "Metabolic power; a spec that wants it says which.",
+        "Metabolic power; optional, chosen by the spec.",
         optional=True,
         sends=(
             ("excitation", "activation"),
@@ -58,21 +58,21 @@ class SeriesElasticClutch(Component):
 
     engaged = State(levels=("no", "yes"), doc="Whether the clutch was engaged one step ago.")
     least_length = State("m", "Least length of the path since the clutch was engaged.")
-    dissipated = State("J", "Energy that the spring has held when the clutch was released, in total.")
+    dissipated = State("J", "Total energy that the spring held at releases of the clutch.")
 
     force = Output("N", "Force of the unit.")
     normalized_force = Output("1", "Force in F_max.")
-    activation = Output("1", "Part of the fiber that carries the force, F / F_max, at most 1.")
+    activation = Output("1", "Share of the fiber that carries the force, F / F_max, at most 1.")
     stretch = Output("m", "Stretch of the spring.")
     fiber_length = Output("m", "Length of the fiber: the path less the stretched spring.")
     normalized_fiber_length = Output("1", "Length of the fiber in optimal lengths.")
     normalized_path_length = Output("1", "The path less the spring at rest, in optimal lengths.")
-    fiber_velocity = Output("m/s", "0: the fiber holds still while it carries.")
+    fiber_velocity = Output("m/s", "0: the fiber is isometric.")
     normalized_fiber_velocity = Output("1", "0.")
     fiber_force = Output("N", "Force of the fiber, that of the spring.")
-    normalized_isometric_force = Output("1", "1: how long the fiber is does not matter.")
+    normalized_isometric_force = Output("1", "1: the force does not depend on the fiber's length.")
     elastic_energy = Output("J", "Elastic energy of the spring.")
-    dissipated_energy = Output("J", "What has been lost by releases under load since the start.")
+    dissipated_energy = Output("J", "Energy lost by releases under load since the start.")
 
     spring = Curve(
         "force",

@@ -2,9 +2,9 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 class Skeleton(Component):
-    """The distance of a metric from what is wanted, |v - v_0|; write here what a good model is. Least is best."""
+    """The distance of a metric from a target, |v - v_0|; replace it by your cost. The smallest cost is best."""
 
-    wanted = Parameter("1", "v_0.", default=1, bounds=(-1e6, 1e6), source="definition: a beginning")
+    wanted = Parameter("1", "v_0: target.", default=1, bounds=(-1e6, 1e6), source="definition: a starting value")
     value = Input("1", "A metric.")
     cost = Output("1", "The cost, which is minimised.")
 

@@ -4,20 +4,22 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 class Deviation(Component):
-    """How far a metric is from a target, less a tolerance, times a weight."""
+    """Distance of a metric from a target, minus a tolerance, times a weight."""
 
     weight = Parameter("1", "Cost of one unit.", default=1, bounds=(0, 1e9), source="definition: one for one")
-    unit = Parameter("*", "Value that counts as 1.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
-    target = Parameter("*", "The value that is wanted.")
+    unit = Parameter(
+        "*", "Scale: the value is divided by this.", default=1, bounds=(1e-12, 1e12), source="definition: SI"
+    )
+    target = Parameter("*", "Target value.")
     tolerance = Parameter(
-        "*", "Within this distance it costs nothing.", default=0, source="definition: every deviation counts"
+        "*", "Deviations up to this cost nothing.", default=0, source="definition: every deviation counts"
     )
     missing = Parameter(
         "1",
-        "Cost if the metric has no value, as a step length without a step.",
+        "Cost if the metric has no value, such as a step length without a step.",
         default=100,
         bounds=(0, 1e9),
-        source="definition: worse than any value that is meant",
+        source="definition: worse than any expected value",
     )
     value = Input("*", "The metric.")
     cost = Output("1", "The weighted deviation.")

@@ -7,14 +7,16 @@ class Excess(Component):
     """Cost of a metric above a threshold: the difference times a weight; 0 below the threshold."""
 
     weight = Parameter("1", "Cost of one unit.", default=1, bounds=(0, 1e9), source="definition: one for one")
-    unit = Parameter("*", "Value that counts as 1.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
-    threshold = Parameter("*", "Up to here it costs nothing.", default=0, source="definition: every excess counts")
+    unit = Parameter(
+        "*", "Scale: the value is divided by this.", default=1, bounds=(1e-12, 1e12), source="definition: SI"
+    )
+    threshold = Parameter("*", "Values up to this cost nothing.", default=0, source="definition: every excess counts")
     missing = Parameter(
         "1",
-        "Cost if the metric has no value, as a step length without a step.",
+        "Cost if the metric has no value, such as a step length without a step.",
         default=100,
         bounds=(0, 1e9),
-        source="definition: worse than any value that is meant",
+        source="definition: worse than any expected value",
     )
     value = Input("*", "The metric.")
     cost = Output("1", "The weighted excess.")

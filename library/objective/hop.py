@@ -2,38 +2,42 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 class Hop(Component):
-    """Minus the height of recurring hops, less the height that energy stored at the start could give.
+    """Negative height of recurring hops, corrected for the height that energy stored at the start could give.
 
-    What does not hop often enough, or not recurringly, fails by degrees: cost is positive and the
-    smaller, the less is missing. Below 1: enough hops, but their apexes differ. Above 1: hops are missing.
+    Candidates with too few or irregular hops have a positive cost, which decreases as they come closer to
+    hopping. Below 1: enough hops, but their apexes differ. Above 1: too few hops.
     """
 
     required_hops = Parameter(
-        "1", "Fewer hops are a failure.", default=5, bounds=(1, 100), source="definition: five tell whether hops recur"
+        "1", "Fewer hops are a failure.", default=5, bounds=(1, 100), source="definition: five show whether hops recur"
     )
     largest_spread = Parameter(
         "m", "Apexes that differ by more are a failure.", default=0.01, bounds=(1e-6, 1), source="definition: 1 cm"
     )
     correction = Parameter(
         "1",
-        "Share of the stored height that is taken off; 0 lets a search pre-load the tendon.",
+        "Share of the stored height that is subtracted; with 0, a search can gain height by pre-loading the tendon.",
         default=1,
         bounds=(0, 1),
         source="thesis: energy stored in the tendon at the start",
     )
     scale = Parameter(
-        "m", "Height that is worth one unit of cost.", default=1, bounds=(1e-3, 1e3), source="definition: SI"
+        "m", "Height that corresponds to a cost of 1.", default=1, bounds=(1e-3, 1e3), source="definition: SI"
     )
     patience = Parameter(
-        "s", "Time upright that counts half.", default=1, bounds=(1e-3, 1e3), source="definition: about a hop"
+        "s",
+        "Time upright at which half of its share of the cost is gone.",
+        default=1,
+        bounds=(1e-3, 1e3),
+        source="definition: about a hop",
     )
     height = Input("m", "Mean height of the last hops.")
     spread = Input("m", "Highest minus lowest of the last apexes.")
     hops = Input("1", "Number of hops.")
-    rebound = Input("1", "How far it came up again after the first touchdown, 0 to 1.", default=0)
-    upright = Input("s", "How long it stayed up.", default=0)
+    rebound = Input("1", "Rise after the first touchdown, relative to the fall, 0 to 1.", default=0)
+    upright = Input("s", "Time upright.", default=0)
     stored_height = Input("m", "Height that energy stored at the start could give.", default=0)
-    cost = Output("1", "The cost: metres of height, negative.")
+    cost = Output("1", "Cost: the negative height in units of scale.")
 
     @staticmethod
     def output(p, u, x, y):

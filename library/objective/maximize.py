@@ -2,7 +2,7 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 class Maximize(Component):
-    """Minus a metric, so that the largest is the best."""
+    """Negative of a metric, so that the largest value is best."""
 
     scale = Parameter("*", "Metric value that corresponds to a cost of 1.", default=1, source="definition: SI")
     value = Input("*", "The metric.")

@@ -2,7 +2,7 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 class Minimize(Component):
-    """A metric as it is, so that the smallest is the best."""
+    """A metric itself, so that the smallest value is best."""
 
     scale = Parameter("*", "Metric value that corresponds to a cost of 1.", default=1, source="definition: SI")
     value = Input("*", "The metric.")

@@ -7,14 +7,16 @@ class Shortfall(Component):
     """Cost of a metric below a threshold: the difference times a weight; 0 above the threshold."""
 
     weight = Parameter("1", "Cost of one unit.", default=1, bounds=(0, 1e9), source="definition: one for one")
-    unit = Parameter("*", "Value that counts as 1.", default=1, bounds=(1e-12, 1e12), source="definition: SI")
+    unit = Parameter(
+        "*", "Scale: the value is divided by this.", default=1, bounds=(1e-12, 1e12), source="definition: SI"
+    )
     threshold = Parameter("*", "The cost is 0 from this value on.")
     missing = Parameter(
         "1",
-        "Cost if the metric has no value, as a step length without a step.",
+        "Cost if the metric has no value, such as a step length without a step.",
         default=100,
         bounds=(0, 1e9),
-        source="definition: worse than any value that is meant",
+        source="definition: worse than any expected value",
     )
     value = Input("*", "The metric.")
     cost = Output("1", "The weighted shortfall.")

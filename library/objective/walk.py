@@ -4,29 +4,33 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 def bounded(value, limit):
-    """As it is up to half of the limit, then ever slower towards the limit: continuous with its slope."""
+    """Identity up to half of the limit, then saturating towards the limit; value and slope are continuous."""
     half = 0.5 * limit
     return value if value <= half else limit - half * half / value
 
 
 class Walk(Component):
-    """A walk in stages; a candidate in a later stage beats every one in an earlier stage.
+    """Cost of walking in stages; every candidate of a later stage is better than those of earlier stages.
 
-    200 to 300, it falls or does not get on, as one that stands still: the cost sinks with the time it
-    walked, which is the time upright, but not more than the distance takes at the target speed. Who
-    is upright for more than twice that time does not get on. 100 to 200, it does not fall, but its
-    speed is not within the tolerance: the cost sinks with the distance to it. 0 to 100, it walks: cost
-    of transport in J/(kg m), plus what joints lean on their stops, what the feet strike the ground
-    with, and any further terms; as it is up to 50, and slower above so that it stays below 100.
+    200 to 300: it falls or makes no progress. The cost decreases with the time walked, which is the time
+    upright, but at most the time that the distance takes at the target speed. A model that is upright for
+    more than twice that time makes no progress. 100 to 200: it does not fall, but its speed is outside the
+    tolerance. The cost decreases with the distance to the tolerance. 0 to 100: it walks. The cost is the cost of
+    transport in J/(kg m), plus terms for the torque of joint stops, for too large ground forces, and any
+    further terms; it is linear up to 50 and saturates towards 100.
     """
 
     speed_target = Parameter("m/s", "Speed that is wanted.", default=1.3, bounds=(0.01, 10), source="geyer2010")
     speed_tolerance = Parameter(
-        "m/s", "Speeds this near are as good.", default=0.1, bounds=(0, 10), source="definition: 1.2 to 1.4 m/s"
+        "m/s",
+        "Speeds within this distance are equally good.",
+        default=0.1,
+        bounds=(0, 10),
+        source="definition: 1.2 to 1.4 m/s",
     )
     patience = Parameter(
         "s",
-        "Time walked after which half of the cost of a fall is gone.",
+        "Time walked after which the cost of a fall has halved.",
         default=5,
         bounds=(1e-3, 1e4),
         source="definition: some steps",
@@ -36,7 +40,7 @@ class Walk(Component):
     )
     torque_weight = Parameter(
         "1/(N m)",
-        "Cost of 1 N m on the stops, in the mean over time.",
+        "Cost of 1 N m on the stops, averaged over time.",
         default=0.1,
         bounds=(0, 1e6),
         source="definition: 10 N m on the stops are worth 1 J/(kg m)",
@@ -46,18 +50,18 @@ class Walk(Component):
     )
     load_weight = Parameter(
         "1",
-        "Cost of one body weight too much, in the mean over time.",
+        "Cost of an average excess of one body weight.",
         default=10,
         bounds=(0, 1e6),
-        source="definition: 0.1 body weights too much all the time are worth 1 J/(kg m)",
+        source="definition: a constant excess of 0.1 body weights is worth 1 J/(kg m)",
     )
-    fall_time = Input("s", "How long it stayed up, from measure/fall.")
+    fall_time = Input("s", "Time until the fall, from measure/fall.")
     fell = Input("1", "1 if it fell, from measure/fall.")
     distance = Input("m", "Distance covered, from measure/speed.")
     speed = Input("m/s", "Mean speed, from measure/speed.")
-    cost_of_transport = Input("J/(kg m)", "Metabolic energy for a kilogram and a metre.")
-    limit_torque = Input("N m", "Torque on the stops of all joints, in the mean over time.", default=0)
-    load_excess = Input("1", "Force on the feet above what is allowed, from measure/load_limit.", default=0)
+    cost_of_transport = Input("J/(kg m)", "Metabolic energy per body mass and distance.")
+    limit_torque = Input("N m", "Torque on the stops of all joints, averaged over time.", default=0)
+    load_excess = Input("1", "Force on the feet above the allowed one, from measure/load_limit.", default=0)
     terms = Input("1", "Costs of further terms, counted in the last stage.", sums=True)
     cost = Output("1", "The cost.")
 

@@ -4,16 +4,16 @@ from gaitsim.component import Component, Curve, Input, Link, Output, Parameter
 class ConstantArm(Component):
     """A path around one joint at a constant distance, such as the knee extensor of Geyer et al. (2003).
 
-    The path shortens as the joint's angle grows where d > 0: l = l_ref - rho d (phi - phi_ref). The pennation
-    factor rho scales the length only, not the moment d F (Geyer & Herr 2010): with rho < 1 the joint gets
-    1 / rho of the work that the muscle gives. With rho = 1 both agree.
+    With d > 0 the path shortens as the joint angle increases: l = l_ref - rho d (phi - phi_ref). The pennation
+    factor rho scales the length only, not the moment d F (Geyer & Herr 2010): with rho < 1 the joint
+    receives 1 / rho of the muscle's work. With rho = 1 both are equal.
     """
 
-    moment_arm = Parameter(
-        "m", "Distance d of the path from the joint's axis; negative if the joint's angle shrinks.", bounds=(-1, 1)
-    )
+    moment_arm = Parameter("m", "Moment arm d; negative if tension decreases the joint angle.", bounds=(-1, 1))
     reference_length = Parameter(
-        "m", "Length l_ref at the reference angle; unsaid, the muscle's fiber and tendon at rest.", bounds=(0, 3)
+        "m",
+        "Length l_ref at the reference angle; by default the sum of optimal fiber length and tendon slack length.",
+        bounds=(0, 3),
     )
     reference_angle = Parameter("rad", "Joint angle phi_ref.", bounds=(-6.3, 6.3))
     pennation = Parameter(
@@ -24,7 +24,7 @@ class ConstantArm(Component):
         source="definition: fibers along the path",
     )
     joint = Link(
-        "The joint that the path crosses, instead of angle:, angular_velocity: and to:.",
+        "The joint that the path crosses; replaces angle:, angular_velocity: and to:.",
         reads=(("angle", "angle"), ("angular_velocity", "angular_velocity")),
         sends=(("moment", "moment"),),
     )
@@ -33,7 +33,7 @@ class ConstantArm(Component):
     tension = Input("N", "Force along the path, positive in tension.", sums=True)
     length = Output("m", "Length of the path.")
     velocity = Output("m/s", "Lengthening velocity of the path.")
-    moment = Output("N m", "Moment that makes the joint's angle grow.")
+    moment = Output("N m", "Moment in the direction of increasing joint angle.")
 
     lengths = Curve(
         "length",

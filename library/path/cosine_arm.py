@@ -6,17 +6,21 @@ from gaitsim.component import Component, Curve, Input, Link, Output, Parameter
 class CosineArm(Component):
     """A path around one joint whose moment arm is r = r_0 cos(s (phi - phi_max)), s = 1 in Geyer & Herr (2010).
 
-    l = l_ref - rho r_0 / s [sin(s (phi - phi_max)) - sin(s (phi_ref - phi_max))]: the path shortens as the angle grows
-    where r > 0. The pennation factor rho scales the length only, not the moment r F: with rho < 1 the joint
-    gets 1 / rho of the work that the muscle gives. With rho = 1 both agree. In a joint that counts its angle
-    otherwise, phi_max and phi_ref are such angles too, and r_0 has the sign of the moment that the joint takes.
-    Where an arm falls from r_0 to r_min at phi_min (Song & Geyer 2015), s = acos(r_min / r_0) / |phi_min - phi_max|.
+    l = l_ref - rho r_0 / s [sin(s (phi - phi_max)) - sin(s (phi_ref - phi_max))]: the path shortens as the angle
+    increases where r > 0. The pennation factor rho scales the length only, not the moment r F: with rho < 1 the joint
+    receives 1 / rho of the muscle's work. With rho = 1 both are equal. phi_max and phi_ref follow the angle convention
+    of the joint, and r_0 has the sign of the moment in that convention. Where an arm falls from r_0 to r_min at
+    phi_min (Song & Geyer 2015), s = acos(r_min / r_0) / |phi_min - phi_max|.
     """
 
-    moment_arm = Parameter("m", "Largest moment arm r_0; negative if the joint's angle shrinks.", bounds=(-1, 1))
+    moment_arm = Parameter(
+        "m", "Largest moment arm r_0; negative if tension decreases the joint angle.", bounds=(-1, 1)
+    )
     max_angle = Parameter("rad", "Joint angle phi_max at which the arm is r_0.", bounds=(-6.3, 6.3))
     reference_length = Parameter(
-        "m", "Length l_ref at the reference angle; unsaid, the muscle's fiber and tendon at rest.", bounds=(0, 3)
+        "m",
+        "Length l_ref at the reference angle; by default the sum of optimal fiber length and tendon slack length.",
+        bounds=(0, 3),
     )
     reference_angle = Parameter("rad", "Joint angle phi_ref.", bounds=(-6.3, 6.3))
     pennation = Parameter(
@@ -27,10 +31,10 @@ class CosineArm(Component):
         source="definition: fibers along the path",
     )
     angle_scale = Parameter(
-        "1", "s: how fast the arm falls off its largest value.", default=1, bounds=(1e-3, 10), source="geyer2010"
+        "1", "s: scale of the angle in the cosine.", default=1, bounds=(1e-3, 10), source="geyer2010"
     )
     joint = Link(
-        "The joint that the path crosses, instead of angle:, angular_velocity: and to:.",
+        "The joint that the path crosses; replaces angle:, angular_velocity: and to:.",
         reads=(("angle", "angle"), ("angular_velocity", "angular_velocity")),
         sends=(("moment", "moment"),),
     )
@@ -39,7 +43,7 @@ class CosineArm(Component):
     tension = Input("N", "Force along the path, positive in tension.", sums=True)
     length = Output("m", "Length of the path.")
     velocity = Output("m/s", "Lengthening velocity of the path.")
-    moment = Output("N m", "Moment that makes the joint's angle grow.")
+    moment = Output("N m", "Moment in the direction of increasing joint angle.")
 
     curve = Curve(
         of="length",

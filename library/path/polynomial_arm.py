@@ -4,23 +4,39 @@ from gaitsim.component import Component, Curve, Input, Link, Output, Parameter
 class PolynomialArm(Component):
     """A path around one joint whose moment arm is a polynomial of the angle, and whose length is the arm's integral.
 
-    r = r_0 + r_1 a + r_2 a^2 + r_3 a^3 with a = phi - phi_ref, and l = l_ref - integral of r over a. So force times
-    shortening is moment times turning: the path makes no work and takes none, whatever the muscle's pennation. That
-    is the muscle's own. The path shortens as the angle grows where r > 0.
+    r = r_0 + r_1 a + r_2 a^2 + r_3 a^3 with a = phi - phi_ref, and l = l_ref - integral of r over a. The path
+    therefore neither creates nor absorbs work; pennation belongs to the muscle. The path shortens as the angle
+    increases where r > 0.
     """
 
     moment_arm = Parameter(
-        "m", "r_0: arm at the reference angle; negative if the joint's angle shrinks.", bounds=(-1, 1)
+        "m", "r_0: arm at the reference angle; negative if tension decreases the joint angle.", bounds=(-1, 1)
     )
-    arm_slope = Parameter("m/rad", "r_1.", default=0, bounds=(-10, 10), source="definition: a constant arm")
-    arm_curvature = Parameter("m/rad^2", "r_2.", default=0, bounds=(-10, 10), source="definition: a constant arm")
-    arm_cubic = Parameter("m/rad^3", "r_3.", default=0, bounds=(-10, 10), source="definition: a constant arm")
+    arm_slope = Parameter(
+        "m/rad", "r_1: slope of the arm.", default=0, bounds=(-10, 10), source="definition: a constant arm"
+    )
+    arm_curvature = Parameter(
+        "m/rad^2",
+        "r_2: quadratic coefficient of the arm.",
+        default=0,
+        bounds=(-10, 10),
+        source="definition: a constant arm",
+    )
+    arm_cubic = Parameter(
+        "m/rad^3",
+        "r_3: cubic coefficient of the arm.",
+        default=0,
+        bounds=(-10, 10),
+        source="definition: a constant arm",
+    )
     reference_length = Parameter(
-        "m", "Length l_ref at the reference angle; unsaid, the muscle's fiber and tendon at rest.", bounds=(0, 3)
+        "m",
+        "Length l_ref at the reference angle; by default the sum of optimal fiber length and tendon slack length.",
+        bounds=(0, 3),
     )
     reference_angle = Parameter("rad", "Joint angle phi_ref.", bounds=(-6.3, 6.3))
     joint = Link(
-        "The joint that the path crosses, instead of angle:, angular_velocity: and to:.",
+        "The joint that the path crosses; replaces angle:, angular_velocity: and to:.",
         reads=(("angle", "angle"), ("angular_velocity", "angular_velocity")),
         sends=(("moment", "moment"),),
     )
@@ -29,7 +45,7 @@ class PolynomialArm(Component):
     tension = Input("N", "Force along the path, positive in tension.", sums=True)
     length = Output("m", "Length of the path.")
     velocity = Output("m/s", "Lengthening velocity of the path.")
-    moment = Output("N m", "Moment that makes the joint's angle grow.")
+    moment = Output("N m", "Moment in the direction of increasing joint angle.")
 
     lengths = Curve(
         "length",

@@ -2,7 +2,7 @@ from gaitsim.component import Component, Input, Output, Points
 
 
 class Sites(Component):
-    """A straight path through points on segments; it pulls on them along its line."""
+    """A path of straight lines through points on segments."""
 
     points = Points("At least two points, from origin to insertion.")
     tension = Input("N", "Force along the path, positive in tension.", sums=True)

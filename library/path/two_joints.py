@@ -2,15 +2,16 @@ from gaitsim.component import Component, Input, Output, Parameter, Part
 
 
 class TwoJoints(Component):
-    """A path across two joints: each inner path tells what its joint adds, such as gastrocnemius' ankle and knee.
+    """A path across two joints, such as that of the gastrocnemius, from one inner path per joint.
 
-    l = l_1 + l_2 - l_ref, where both inner paths count from the same l_ref. Both pull with the
+    l = l_1 + l_2 - l_ref, where both inner paths have the same l_ref. Both carry the
     whole tension.
     """
 
     reference_length = Parameter(
         "m",
-        "Length l_ref where both joints are at their reference angles; unsaid, the muscle's fiber and tendon at rest.",
+        "Length l_ref where both joints are at their reference angles; by default the sum of optimal fiber length and "
+        "tendon slack length.",
         bounds=(0, 3),
     )
     first = Part(

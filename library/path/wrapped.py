@@ -2,15 +2,15 @@ from gaitsim.component import Component, Input, Output, Parameter, Points, Refus
 
 
 class Wrapped(Component):
-    """A path through points that bends around a cylinder across the sagittal plane, such as a knee cap.
+    """A path through points that wraps around a cylinder perpendicular to the sagittal plane, such as the knee.
 
-    Where the straight line would pass the cylinder on the far side from `side`, or cut through
-    it, the path lies on it instead: its moment arm then is the radius and cannot change sign.
+    Where the straight line would cut the cylinder or pass it on the side opposite to `side`, the path
+    wraps around it. Its moment arm then is the radius and cannot change sign.
     """
 
     origin = Points("Points before the cylinder, from the origin on.")
     insertion = Points("Points after the cylinder, up to the insertion.")
-    center = Points("One point: where the cylinder's axis is.")
+    center = Points("One point on the cylinder's axis.")
     side = Points("One point outside the cylinder, on the side where the path runs.")
     radius = Parameter("m", "Radius of the cylinder.", bounds=(1e-3, 1))
     tension = Input("N", "Force along the path, positive in tension.", sums=True)

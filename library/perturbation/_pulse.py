@@ -2,7 +2,7 @@
 
 
 def share_of_step(begin, dt, onset, duration):
-    """How much of the step from `begin` on lies within the pulse; the impulse is exact at any step."""
+    """Share of the step from `begin` on that lies within the pulse, so that the impulse is exact at any step."""
     return max(0.0, min(begin + dt, onset + duration) - max(begin, onset)) / dt
 
 

@@ -4,28 +4,30 @@ from ._pulse import share_at_start, share_of_step
 
 
 class Push(Component):
-    """A force on a place of a segment for a while: at a time, or some time after the n-th event.
+    """A force pulse on a segment, at a given time or some time after the n-th event.
 
     In the first step of a run it acts only if its onset is 0.
     """
 
-    frame = Attachment("The place that is pushed.")
+    frame = Attachment("The frame on which the force acts.")
     direction = Option("Direction in the world frame.", choices=("forward", "left", "up"), default="forward")
-    strength = Parameter("N", "Force; negative the other way.", bounds=(-1e5, 1e5))
-    duration = Parameter("s", "How long it lasts.", bounds=(0, 1e4))
-    onset = Parameter("s", "When it begins, counted from the start or from the step after the event.", bounds=(0, 1e6))
+    strength = Parameter("N", "Force; negative for the opposite direction.", bounds=(-1e5, 1e5))
+    duration = Parameter("s", "Duration of the pulse.", bounds=(0, 1e4))
+    onset = Parameter(
+        "s", "Time of the onset, counted from the start or from the step after the event.", bounds=(0, 1e6)
+    )
     event_number = Parameter(
         "1",
-        "Which event it waits for; 0 is the start of the run.",
+        "Number of the event that it follows; 0 is the start of the run.",
         default=0,
         bounds=(0, 1e6),
         source="definition: a push at a given time",
     )
     event = Input("1", "1 in the instant of an event, such as touchdown.", default=0)
-    events = State("1", "How many events there were.")
+    events = State("1", "Number of events so far.")
     steps = State("1", "Steps since the pulse's time began; -1 before.")
     level = State("1", "Share of the force in this step.")
-    force = Output("N", "Force on the place.")
+    force = Output("N", "Force on the frame.")
 
     @staticmethod
     def start(p, u, x):

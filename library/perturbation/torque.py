@@ -4,24 +4,26 @@ from ._pulse import share_at_start, share_of_step
 
 
 class Torque(Component):
-    """A moment at a joint for a while: at a time, or some time after the n-th event.
+    """A moment pulse at a joint, at a given time or some time after the n-th event.
 
     It goes to a joint by `to:`, such as `to: knee.torque`, and so has the sign of the joint's angle. In the
     first step of a run it acts only if its onset is 0.
     """
 
-    strength = Parameter("N m", "Moment; negative the other way.", bounds=(-1e5, 1e5))
-    duration = Parameter("s", "How long it lasts.", bounds=(0, 1e4))
-    onset = Parameter("s", "When it begins, counted from the start or from the step after the event.", bounds=(0, 1e6))
+    strength = Parameter("N m", "Moment; negative for the opposite direction.", bounds=(-1e5, 1e5))
+    duration = Parameter("s", "Duration of the pulse.", bounds=(0, 1e4))
+    onset = Parameter(
+        "s", "Time of the onset, counted from the start or from the step after the event.", bounds=(0, 1e6)
+    )
     event_number = Parameter(
         "1",
-        "Which event it waits for; 0 is the start of the run.",
+        "Number of the event that it follows; 0 is the start of the run.",
         default=0,
         bounds=(0, 1e6),
         source="definition: a moment at a given time",
     )
     event = Input("1", "1 in the instant of an event, such as touchdown.", default=0)
-    events = State("1", "How many events there were.")
+    events = State("1", "Number of events so far.")
     steps = State("1", "Steps since the pulse's time began; -1 before.")
     level = State("1", "Share of the moment in this step.")
     torque = Output("N m", "Moment at the joint.")

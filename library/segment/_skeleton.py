@@ -2,11 +2,11 @@ from gaitsim.component import Component, Frame, Parameter
 
 
 class Skeleton(Component):
-    """A uniform rod that hangs from its proximal end; write here what yours is."""
+    """A uniform rod that hangs from its proximal end; replace it by your shape."""
 
     mass = Parameter("kg", "Mass.", bounds=(1e-6, 1000))
     length = Parameter("m", "Length from the proximal to the distal end.", bounds=(1e-3, 10))
-    proximal = Frame("The end that counts as the origin.")
+    proximal = Frame("The end at the origin.")
     distal = Frame("The other end.")
 
     @staticmethod

@@ -2,7 +2,7 @@ from gaitsim.component import Component, Frame, Option, Parameter
 
 
 class PointLeg(Component):
-    """A straight leg without mass but for a point on it, and for one at its distal end such as the hip's."""
+    """A massless straight leg with one point mass on it, and one at its distal end, such as the hip."""
 
     mass = Parameter("kg", "Mass of the point.", bounds=(1e-9, 1000))
     position = Parameter("m", "Its distance from the proximal end.", bounds=(0, 10))
@@ -12,13 +12,13 @@ class PointLeg(Component):
     length = Parameter("m", "Length.", bounds=(1e-3, 10))
     thickness = Parameter(
         "m",
-        "Radius of what is drawn.",
+        "Radius of the drawn shape.",
         default=0.02,
         bounds=(1e-4, 1),
-        source="definition: a look; no mass follows from it",
+        source="definition: for drawings only; no mass follows from it",
     )
     direction = Option("From the proximal to the distal end.", choices=("down", "up"), default="down")
-    proximal = Frame("The end that counts as the origin.")
+    proximal = Frame("The end at the origin.")
     distal = Frame("The other end.")
 
     @staticmethod
@@ -26,7 +26,7 @@ class PointLeg(Component):
         sign = 1 if p.direction == "up" else -1
         whole = p.mass + p.end_mass
         center = (p.mass * p.position + p.end_mass * p.length) / whole
-        # A point has no inertia, and MuJoCo wants some: 1e-8 of what a leg has about its end.
+        # MuJoCo requires an inertia, which a point lacks: 1e-8 of that of the leg about its end.
         inertia = p.mass * p.end_mass / whole * (p.length - p.position) ** 2 + 1e-8 * p.mass * p.length**2
         mj.body(mass=whole, center_of_mass=(0, 0, sign * center), inertia=(inertia, inertia, inertia))
         mj.frame("proximal", (0, 0, 0))

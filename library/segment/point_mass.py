@@ -2,7 +2,7 @@ from gaitsim.component import Component, Frame, Parameter
 
 
 class PointMass(Component):
-    """A body whose mass sits in one point, with a small sphere's inertia so that it may turn."""
+    """A point mass, with the inertia of a small sphere so that it may rotate."""
 
     mass = Parameter("kg", "Mass.", bounds=(1e-6, 1000))
     radius = Parameter(
@@ -10,7 +10,7 @@ class PointMass(Component):
         "Radius of the sphere that is drawn and that gives the inertia, 2/5 m r^2.",
         default=0.1,
         bounds=(1e-4, 1),
-        source="definition: solid sphere; irrelevant where only translation is free",
+        source="definition: solid sphere; irrelevant to translation",
     )
     center = Frame("The point.")
 

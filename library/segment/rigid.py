@@ -2,7 +2,7 @@ from gaitsim.component import Component, Frame, Option, Parameter
 
 
 class Rigid(Component):
-    """A rigid segment given by numbers in plain units: mass, length, center of mass, moment of inertia."""
+    """A rigid segment, given by mass, length, center of mass and moment of inertia."""
 
     mass = Parameter("kg", "Mass.", bounds=(1e-6, 1000))
     length = Parameter("m", "Length from the proximal to the distal end.", bounds=(1e-3, 10))
@@ -12,13 +12,13 @@ class Rigid(Component):
     )
     thickness = Parameter(
         "m",
-        "Radius of what is drawn.",
+        "Radius of the drawn shape.",
         default=0.04,
         bounds=(1e-4, 1),
-        source="definition: a look; no mass follows from it",
+        source="definition: for drawings only; no mass follows from it",
     )
     direction = Option("From the proximal to the distal end.", choices=("down", "up", "forward"), default="down")
-    proximal = Frame("The end that counts as the origin.")
+    proximal = Frame("The end at the origin.")
     distal = Frame("The other end.")
     center = Frame("The center of mass.")
 

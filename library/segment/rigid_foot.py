@@ -12,18 +12,18 @@ class RigidFoot(Component):
         "kg m^2", "Moment of inertia about a transverse axis through the center of mass.", bounds=(1e-9, 1000)
     )
     length = Parameter("m", "Length from the heel to the ball.", bounds=(1e-3, 10))
-    ankle = Parameter("m", "How far the ankle is in front of the heel.", bounds=(-1, 1))
+    ankle = Parameter("m", "Distance of the ankle in front of the heel.", bounds=(-1, 1))
     ankle_height = Parameter("m", "Height of the ankle above the sole.", default=0, bounds=(0, 1), source="geyer2010")
-    center_of_mass = Parameter("m", "How far the center of mass is in front of the heel.", bounds=(-1, 1))
+    center_of_mass = Parameter("m", "Distance of the center of mass in front of the heel.", bounds=(-1, 1))
     center_height = Parameter(
         "m", "Height of the center of mass above the sole.", default=0, bounds=(0, 1), source="geyer2010"
     )
     thickness = Parameter(
         "m",
-        "Radius of what is drawn.",
+        "Radius of the drawn shape.",
         default=0.02,
         bounds=(1e-4, 1),
-        source="definition: a look; no mass follows from it",
+        source="definition: for drawings only; no mass follows from it",
     )
     proximal = Frame("The ankle, as with other segments.")
     distal = Frame("The ball, as with other segments.")

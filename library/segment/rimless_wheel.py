@@ -4,7 +4,7 @@ from gaitsim.component import Component, Frame, Parameter
 
 
 class RimlessWheel(Component):
-    """A hub with spokes, one of which stands: that from the foot up to the hub (McGeer 1990)."""
+    """A rimless wheel: a hub with massless spokes, one of which stands on the ground (McGeer 1990)."""
 
     mass = Parameter("kg", "Mass, at the hub.", bounds=(1e-6, 1000))
     inertia = Parameter("kg m^2", "Moment of inertia about the hub.", bounds=(0, 1000))
@@ -15,7 +15,7 @@ class RimlessWheel(Component):
 
     @staticmethod
     def build(p, mj):
-        # A point has no inertia, and MuJoCo wants some.
+        # MuJoCo requires an inertia, which a point lacks.
         inertia = max(p.inertia, 1e-12 * p.mass * p.length**2)
         mj.body(mass=p.mass, center_of_mass=(0, 0, p.length), inertia=(inertia, inertia, inertia))
         mj.frame("foot", (0, 0, 0))

@@ -2,7 +2,7 @@ from gaitsim.component import Component, Frame, Option, Parameter
 
 
 class Rod(Component):
-    """A rigid segment along a line: it hangs from its proximal end unless another direction is said."""
+    """A rigid segment along a line; by default it hangs from its proximal end."""
 
     mass = Parameter("kg", "Mass.", bounds=(1e-6, 1000))
     length = Parameter("m", "Length from the proximal to the distal end.", bounds=(1e-3, 10))
@@ -28,7 +28,7 @@ class Rod(Component):
         source="definition: solid cylinder; irrelevant to motion in a plane",
     )
     direction = Option("From the proximal to the distal end.", choices=("down", "up", "forward"), default="down")
-    proximal = Frame("The end that counts as the origin.")
+    proximal = Frame("The end at the origin.")
     distal = Frame("The other end.")
     center = Frame("The center of mass.")
 

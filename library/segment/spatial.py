@@ -2,11 +2,11 @@ from gaitsim.component import Component, Frame, Parameter
 
 
 class Spatial(Component):
-    """A rigid segment in space, measured from its center of mass along axes forwards, to the left and up.
+    """A rigid segment in space. Coordinates are from its center of mass: forwards, to the left, upwards.
 
-    These are principal axes: its three moments of inertia are about them. Joints fasten to the proximal and the distal
-    end, or to a place beside a frame: `parent: {on: pelvis.center, at: [0 cm, -8 cm, -7 cm]}`. On the left side
-    (`sides: [l, r]`), what is said of the right one is mirrored.
+    These are its principal axes of inertia. Joints attach to the proximal and the distal end, or to a place given
+    relative to a frame: `parent: {on: pelvis.center, at: [0 cm, -8 cm, -7 cm]}`. On the left side
+    (`sides: [l, r]`), coordinates of the right segment are mirrored.
     """
 
     mass = Parameter("kg", "Mass.", bounds=(1e-6, 1000))
@@ -37,10 +37,10 @@ class Spatial(Component):
     distal_up = Parameter("m", "Distal end, upwards.", default=0, bounds=(-10, 10), source="definition: in the center")
     thickness = Parameter(
         "m",
-        "Radius of what is drawn from end to end.",
+        "Radius of the cylinder that is drawn from end to end.",
         default=0.04,
         bounds=(1e-4, 1),
-        source="definition: a look; no mass follows from it",
+        source="definition: for drawings only; no mass follows from it",
     )
     center = Frame("The center of mass.")
     proximal = Frame("The end near the trunk.")

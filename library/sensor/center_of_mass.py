@@ -2,7 +2,7 @@ from gaitsim.component import Component, Output
 
 
 class CenterOfMass(Component):
-    """Position and velocity of the center of mass of all that moves, in the world."""
+    """Position and velocity of the center of mass of the whole model, in the world."""
 
     forward = Output("m", "Position along x.")
     left = Output("m", "Position along y.")

@@ -2,9 +2,9 @@ from gaitsim.component import Attachment, Component, Input, Output, Part
 
 
 class Clearance(Component):
-    """How high a place is above the ground, along the ground's normal: of a hip on a slope or on steps, say."""
+    """Height of a frame above the ground, along the ground's normal, such as that of a hip on a slope or on steps."""
 
-    frame = Attachment("The place.")
+    frame = Attachment("The frame.")
     terrain = Part(
         "terrain",
         "The ground.",
@@ -12,10 +12,10 @@ class Clearance(Component):
         reads=(("ground_height", "height"),),
         sends=(("position", "position"),),
     )
-    ground_height = Input("m", "Height of the ground where the place is.", default=0)
-    position = Output("m", "Where the place is along the ground.")
-    place_height = Output("m", "Height of the place, from where heights of the ground are counted.")
-    height = Output("m", "Height of the place above the ground.")
+    ground_height = Input("m", "Height of the ground below the frame.", default=0)
+    position = Output("m", "Position of the frame along the ground.")
+    place_height = Output("m", "Height of the frame, from the same zero as heights of the ground.")
+    height = Output("m", "Height of the frame above the ground.")
 
     @staticmethod
     def output(p, u, x, y):

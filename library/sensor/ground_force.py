@@ -2,12 +2,12 @@ from gaitsim.component import Component, Input, Output
 
 
 class GroundForce(Component):
-    """The force of the ground on one foot, of all its contacts, in newtons and in weights of all that moves."""
+    """Ground reaction force on one foot, summed over its contacts, in newtons and in body weights."""
 
     normal = Input("N", "Forces along the ground's normal.", sums=True)
     forward = Input("N", "Forces along the ground, forwards.", sums=True)
     left = Input("N", "Forces along the ground, to the left.", sums=True)
-    weight = Output("N", "Weight of all that moves.")
+    weight = Output("N", "Weight of the whole model.")
     side = Output("1", "-1 for a foot of the left side, else 1.")
     total_normal = Output("N", "Force along the normal.")
     total_forward = Output("N", "Force forwards.")

@@ -2,7 +2,7 @@ from gaitsim.component import Component, Input, Output
 
 
 class Load(Component):
-    """Sum of loads in body weights: of all contacts of a leg, whoever sends one."""
+    """Sum of loads in body weights, such as those of all contacts of a leg."""
 
     loads = Input("1", "Loads in body weights.", sums=True)
     load = Output("1", "Their sum.")

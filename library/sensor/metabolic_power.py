@@ -2,7 +2,7 @@ from gaitsim.component import Component, Input, Output
 
 
 class MetabolicPower(Component):
-    """Sum of metabolic powers: of all muscles of a leg, whoever sends one."""
+    """Sum of metabolic powers, such as those of all muscles of a leg."""
 
     powers = Input("W", "Metabolic powers of muscles.", sums=True)
     power = Output("W", "Their sum.")

@@ -35,7 +35,7 @@ def mixed(number, salt):
 
 
 def sow(state, seed, key):
-    """Set the generator from a seed and a key; the first numbers, still alike, are passed over."""
+    """Seed the generator from a seed and a key; the first numbers, which are correlated, are discarded."""
     for i in range(6):
         state[i] = 1 + mixed(mixed(seed, 1.0 + i) + key, 101.0 + i)
     for _ in range(12):
@@ -43,49 +43,49 @@ def sow(state, seed, key):
 
 
 class Noise(Component):
-    """A signal with Gaussian noise on it, the same for one seed wherever and in whatever mode it runs.
+    """A signal with additive Gaussian noise; one seed gives the same noise in both modes and on any machine.
 
     The noise is an Ornstein-Uhlenbeck process: its autocorrelation is exp(-|t| / tau) at any step, its
-    standard deviation the declared one. With tau = 0 each step draws anew. Each part has noise of its
-    own, also for one seed: it is keyed by the part's address. The first instant has none.
+    standard deviation the declared one. With tau = 0, steps are independent. Each part has independent
+    noise even with the same seed, because it is keyed by the part's address. There is no noise at the first instant.
     """
 
     standard_deviation = Parameter(
-        "*", "Of the noise that is always there.", default=0, source="definition: proportional noise only"
+        "*", "Standard deviation of the constant noise.", default=0, source="definition: proportional noise only"
     )
     proportional = Parameter(
         "1",
-        "Standard deviation of the noise that grows with the signal, in magnitudes of the signal.",
+        "Standard deviation of the noise that is proportional to the signal, relative to the signal's magnitude.",
         default=0,
         bounds=(0, 10),
         source="definition: constant noise only",
     )
     correlation_time = Parameter(
         "s",
-        "tau: time after which the noise has forgotten 63 % of what it was.",
+        "tau: time after which the autocorrelation of the noise has fallen to 1/e.",
         default=0.01,
         bounds=(0, 1000),
-        source="definition: of the order of a muscle's activation",
+        source="definition: about the time constant of muscle activation",
     )
     seed = Parameter(
         "1",
-        "A whole number; another one gives other noise.",
+        "Seed, a whole number.",
         default=1,
         bounds=(0, 67108858),
         source="definition: any seed",
     )
     signal = Input("*", "Any signal.")
     generator = State("1", "State of the random numbers.", size=6)
-    sown = State("1", "1 once the random numbers have begun.")
+    sown = State("1", "1 once the generator has been seeded.")
     level = State("1", "The noise in standard deviations.")
-    key = Output("1", "What tells this part's noise from that of others.")
-    noisy = Output("*", "The signal and its noise.")
+    key = Output("1", "Key of this part's noise, from its address.")
+    noisy = Output("*", "The signal plus noise.")
 
     in_time = Curve(
         "noisy",
         "time",
         (0, 0.5),
-        "A signal of 0 with noise of 1, by its memory.",
+        "Noise of standard deviation 1 over time, for several correlation times.",
         at={"standard_deviation": 1},
         each=("correlation_time", (0.1, 0.01)),
     )

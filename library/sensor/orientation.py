@@ -4,24 +4,24 @@ from gaitsim.component import Attachment, Component, Output, State
 
 
 def continued(angle, before):
-    """The angle with as many whole turns added as bring it nearest to what it was before."""
+    """The angle plus the number of whole turns that brings it closest to its previous value."""
     return before + (angle - before + math.pi) % (2 * math.pi) - math.pi
 
 
 class Orientation(Component):
     """Pitch of a segment in the world's sagittal plane: 0 while its own z axis points up, forwards positive.
 
-    The angle is that of the z axis seen from the left, atan2(z_x, z_z), and goes on through whole turns.
+    The angle is that of the z axis seen from the left, atan2(z_x, z_z), and continues beyond whole turns.
     The rate is the angular velocity about the world's y axis; it is the rate of the pitch as long as
     the segment moves in the sagittal plane.
     """
 
     frame = Attachment("A frame of the segment, such as trunk.hip.")
-    ahead = Output("1", "How far forwards the segment's z axis points.")
-    up = Output("1", "How far upwards it points.")
+    ahead = Output("1", "Forward component of the segment's z axis.")
+    up = Output("1", "Upward component of the segment's z axis.")
     rate = Output("rad/s", "Rate of the pitch.")
     before = State("rad", "Pitch one step ago.")
-    pitch = Output("rad", "Pitch; a trunk that leans forwards has a positive one.")
+    pitch = Output("rad", "Pitch; a forward lean is positive.")
 
     @staticmethod
     def output(p, u, x, y):

@@ -4,7 +4,7 @@ from gaitsim.component import Component, Input, Output, Parameter, Series
 
 
 class RecordedMoment(Component):
-    """A joint's moment as it was recorded over the cycle, and what muscles lack of it."""
+    """Recorded moment of a joint over the cycle, and its difference from the moment of the muscles."""
 
     curve = Series("N m/kg", "Recorded moment over body mass, over the cycle.", size=101)
     mass = Parameter("kg", "Body mass.", bounds=(0.1, 1000))

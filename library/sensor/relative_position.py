@@ -2,19 +2,19 @@ from gaitsim.component import Attachment, Component, Output
 
 
 class RelativePosition(Component):
-    """Where one place is as seen from another, along the axes of the world: the foot from the hip, say."""
+    """Position of one frame relative to another along the world's axes, such as that of a foot seen from the hip."""
 
-    frame = Attachment("The place.")
-    origin = Attachment("The place that it is seen from.")
-    x = Output("m", "Position of the place along the world's x axis.")
+    frame = Attachment("The frame.")
+    origin = Attachment("The frame from which its position is measured.")
+    x = Output("m", "Position of the frame along the world's x axis.")
     y = Output("m", "Its position along the y axis.")
     z = Output("m", "Its height.")
     origin_x = Output("m", "Position of the origin along the world's x axis.")
     origin_y = Output("m", "Its position along the y axis.")
     origin_z = Output("m", "Its height.")
-    forward = Output("m", "How far the place is in front of the origin.")
-    left = Output("m", "How far it is to the left.")
-    up = Output("m", "How far it is above.")
+    forward = Output("m", "Distance of the frame in front of the origin.")
+    left = Output("m", "Distance of the frame to the left of the origin.")
+    up = Output("m", "Height of the frame above the origin.")
 
     @staticmethod
     def output(p, u, x, y):

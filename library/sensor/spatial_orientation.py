@@ -4,33 +4,33 @@ from gaitsim.component import Attachment, Component, Output, State
 
 
 def continued(angle, before):
-    """The angle with as many whole turns added as bring it nearest to what it was before."""
+    """The angle plus the number of whole turns that brings it closest to its previous value."""
     return before + (angle - before + math.pi) % (2 * math.pi) - math.pi
 
 
 class SpatialOrientation(Component):
-    """How a segment is turned in the world: to the left by a yaw, then forwards by a pitch, then rightwards by a roll.
+    """Orientation of a segment in the world: yaw to the left, then pitch forwards, then roll to the right.
 
-    Each turn is about the axes that it finds, as heading, pitch and bank are counted. Yaw and roll go on through whole
-    turns. Rates are angular velocities about the segment's own axes, as a gyroscope feels them. Of a part of the left
-    side (`sides: [l, r]`), yaw and roll turn round, so that both sides feel the same in mirrored postures.
+    Rotations are intrinsic, as heading, pitch and bank of a vehicle. Yaw and roll continue beyond whole turns. Rates
+    are angular velocities about the segment's own axes, as measured by a gyroscope. On the left side (`sides: [l,
+    r]`), the signs of yaw and roll are reversed, so that mirrored postures give the same values on both sides.
     """
 
     frame = Attachment("A frame of the segment, such as torso.center.")
     side = Output("1", "-1 for a part of the left side, else 1.")
-    x_ahead = Output("1", "How far forwards the segment's own x axis points.")
-    x_left = Output("1", "How far to the left it points.")
-    x_up = Output("1", "How far upwards it points.")
-    y_up = Output("1", "How far upwards its own y axis points.")
-    z_up = Output("1", "How far upwards its own z axis points.")
+    x_ahead = Output("1", "Forward component of the segment's own x axis.")
+    x_left = Output("1", "Leftward component of the segment's own x axis.")
+    x_up = Output("1", "Upward component of the segment's own x axis.")
+    y_up = Output("1", "Upward component of its own y axis.")
+    z_up = Output("1", "Upward component of its own z axis.")
     about_x = Output("rad/s", "Angular velocity about its own x axis.")
     about_z = Output("rad/s", "Angular velocity about its own z axis.")
     yaw_before = State("rad", "Yaw one step ago.")
     roll_before = State("rad", "Roll one step ago.")
-    yaw = Output("rad", "Turn to the left; on the left side, to the right.")
+    yaw = Output("rad", "Rotation to the left; on the left side, to the right.")
     roll = Output("rad", "Lean to its right; on the left side, to its left.")
     pitch = Output("rad", "Lean forwards.")
-    rise = Output("rad", "How far its own side is raised, - roll: of a pelvis the obliquity, of a thigh the abduction.")
+    rise = Output("rad", "Elevation of its own side, -roll: the obliquity of a pelvis, the abduction of a thigh.")
     yaw_velocity = Output("rad/s", "Angular velocity to the left; on the left side, to the right.")
     roll_velocity = Output("rad/s", "Angular velocity to the right; on the left side, to the left.")
     pitch_velocity = Output("rad/s", "Angular velocity forwards.")

@@ -4,9 +4,9 @@ from gaitsim.component import Component, Input, Output
 class Flat(Component):
     """Level ground at height 0."""
 
-    position = Input("m", "Where along the ground.", default=0)
+    position = Input("m", "Position along the ground.", default=0)
     height = Output("m", "Height of the ground there.")
-    slope = Output("rad", "By how much the ground rises forwards.")
+    slope = Output("rad", "Slope of the ground in the forward direction.")
 
     @staticmethod
     def output(p, u, x, y):

@@ -2,19 +2,19 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 class Slope(Component):
-    """Ground that rises forwards by one angle everywhere, through the world's origin; and maybe to the left."""
+    """Ground of constant slope through the world's origin, forwards and optionally to the left."""
 
-    angle = Parameter("deg", "By how much the ground rises forwards; below 0, it falls.", bounds=(-60, 60))
+    angle = Parameter("deg", "Slope of the ground in the forward direction; negative for downhill.", bounds=(-60, 60))
     across = Parameter(
         "deg",
-        "By how much the ground rises to the left, about the way forwards along it.",
+        "Slope of the ground to the left, about its forward direction.",
         default=0,
         bounds=(-60, 60),
         source="definition: a slope straight ahead",
     )
-    position = Input("m", "Where along the ground.", default=0)
+    position = Input("m", "Position along the ground.", default=0)
     height = Output("m", "Height of the ground above the slope itself.")
-    slope = Output("rad", "By how much the ground rises forwards.")
+    slope = Output("rad", "Slope of the ground in the forward direction.")
 
     @staticmethod
     def output(p, u, x, y):

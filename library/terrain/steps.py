@@ -2,34 +2,34 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 def whole(number):
-    """The largest whole number that is not larger."""
+    """The largest whole number not above x."""
     return number - number % 1
 
 
 class Steps(Component):
-    """Ground at height 0 up to a first edge, then steps of one height and depth; level, or all of it on a slope.
+    """Ground at height 0 up to a first edge, then steps of equal height and depth, level or on a slope.
 
-    Positions and heights are along the slope and its normal. A step is a jump of the height. Contacts with a
-    force of their own do not feel the riser: a point that slides across an edge is below the upper ground at
-    once. MuJoCo's contact does feel it.
+    Positions and heights are along the slope and its normal. A step is a jump of the height. Contacts with
+    their own force law ignore the riser: a point that slides across an edge is below the upper ground at
+    once. MuJoCo's contact collides with the riser.
     """
 
-    first = Parameter("m", "Where the first edge is.", bounds=(-100, 1000))
-    rise = Parameter("m", "Height of a step; below 0, it goes down.", bounds=(-2, 2))
+    first = Parameter("m", "Position of the first edge.", bounds=(-100, 1000))
+    rise = Parameter("m", "Height of a step; negative for steps down.", bounds=(-2, 2))
     run = Parameter(
         "m", "Depth of a step, from edge to edge.", default=1, bounds=(0.01, 1000), source="definition: a choice"
     )
     count = Parameter("1", "Number of steps.", default=1, bounds=(1, 100), source="definition: one step")
     angle = Parameter(
         "deg",
-        "By how much the ground rises forwards between edges; below 0, it falls.",
+        "Slope of the ground in the forward direction between edges; negative for downhill.",
         default=0,
         bounds=(-60, 60),
         source="definition: level ground",
     )
-    position = Input("m", "Where along the ground.", default=0)
+    position = Input("m", "Position along the ground.", default=0)
     height = Output("m", "Height of the ground there.")
-    slope = Output("rad", "By how much the ground rises forwards.")
+    slope = Output("rad", "Slope of the ground in the forward direction.")
 
     @staticmethod
     def output(p, u, x, y):

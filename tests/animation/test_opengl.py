@@ -74,7 +74,7 @@ def test_a_missing_library_is_named_by_its_package(nothing: str, word: str, word
     assert told(DRAW, MUJOCO_GL=word, LD_LIBRARY_PATH=nothing) == words
 
 
-@pytest.mark.parametrize("word", ["bogus", "egl", "osmesa"])
+@pytest.mark.parametrize("word", ["bogus", *(pytest.param(word, marks=pytest.mark.slow) for word in ("egl", "osmesa"))])
 def test_a_run_needs_no_opengl(nothing: str, word: str, tmp_path: Path) -> None:
     spec = ROOT / "specs" / "pendulum_pid.yaml"
     run = f"""

@@ -39,6 +39,7 @@ def test_it_grows_with_the_signal_above_its_threshold() -> None:
 '''
 
 
+@pytest.mark.slow
 def test_alices_story(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("GAITSIM_STATE", str(tmp_path / "state"))

@@ -85,14 +85,30 @@ def test_a_variant_comes_with_its_parents_and_tuned_values(
         assert said.code == 0, said.err
 
 
-@pytest.mark.parametrize("origin", [n for n, p in shipped_specs().items() if "\nextends:" not in p.read_text()])
-def test_every_shipped_spec_can_be_the_beginning(origin: str, capsys: pytest.CaptureFixture[str]) -> None:
+every_origin = pytest.mark.parametrize(
+    "origin", [name for name, path in shipped_specs().items() if "\nextends:" not in path.read_text()]
+)
+
+
+def made_from(origin: str, capsys: pytest.CaptureFixture[str]) -> list[Path]:
+    """The specs of a new folder."""
     assert gaitsim(capsys, "new", "demo", "--from", origin).code == 0
-    for spec in Path("demo").glob("*.yaml"):
-        if spec.stem.endswith(".tuned"):
-            continue
-        said = gaitsim(capsys, "check", str(spec))
+    return [spec for spec in Path("demo").glob("*.yaml") if not spec.stem.endswith(".tuned")]
+
+
+@every_origin
+def test_every_shipped_spec_can_be_the_beginning(origin: str, capsys: pytest.CaptureFixture[str]) -> None:
+    for spec in made_from(origin, capsys):
+        said = gaitsim(capsys, "show", str(spec))
         assert said.code == 0, said.err
+
+
+@pytest.mark.slow
+@every_origin
+def test_every_shipped_spec_of_a_new_folder_starts_well(origin: str, capsys: pytest.CaptureFixture[str]) -> None:
+    for spec in made_from(origin, capsys):
+        said = gaitsim(capsys, "check", str(spec))
+        assert (said.code, "warning" in said.err) == (0, False), said.err
 
 
 @pytest.mark.parametrize(

@@ -61,7 +61,8 @@ def agree(kind: Primitive, before: Tables, dt: float) -> np.ndarray:
         raised = {rapid.call(stage, "rapid", dt), normal.call(stage, "normal", dt)}
         assert len(raised) == 1, f"only one mode raises in {stage} from {before.views}"
         for mine, theirs in zip(rapid.arrays, normal.arrays, strict=True):
-            np.testing.assert_allclose(mine, theirs, rtol=1e-12, atol=0, err_msg=f"{stage} from {before.views}")
+            if mine.tobytes() != theirs.tobytes():  # as a rule they are the same bits
+                np.testing.assert_allclose(mine, theirs, rtol=1e-12, atol=0, err_msg=f"{stage} from {before.views}")
     return np.concatenate([rapid.arrays[2], rapid.arrays[3]])
 
 

@@ -1,4 +1,4 @@
-"""Activation dynamics: time constants as muscles.md, section 7, has them simulated."""
+"""Activation dynamics: time constants against an independent simulation."""
 
 from __future__ import annotations
 

@@ -56,7 +56,7 @@ class _Sole:
         return self.found[renamed if renamed in self.found.signals else signal]
 
 
-# Sheet, section 1: drop height, peak force and depth within 1 s of an 80 kg point on BW / 1 cm.
+# Computed independently: drop height, peak force and depth within 1 s of an 80 kg point on BW / 1 cm.
 @pytest.mark.parametrize(
     ("height", "peak", "depth"), [(0.01, 3.98, 0.00984), (0.05, 10.95, None), (0.10, 17.73, 0.00996)]
 )

@@ -1,4 +1,4 @@
-"""The muscle of De Groote et al. (2016): curves by the values of muscles.md, section 4."""
+"""The muscle of De Groote et al. (2016): curves against values computed independently from the paper."""
 
 from __future__ import annotations
 

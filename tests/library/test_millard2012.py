@@ -1,4 +1,4 @@
-"""The muscle of Millard et al. (2013): curves and states by the values of OpenSim 4.6 (muscles.md, section 3)."""
+"""The muscle of Millard et al. (2013): curves and states against values of OpenSim 4.6."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Paths around joints: the muscles of Geyer & Herr (2010) as geyer_herr_2010.md, section 2, has them."""
+"""Paths around joints: the muscles of Geyer & Herr (2010) with the published reference angles and arms."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ REST = 0.3
 
 
 def published(muscle: str, joint: str, angle: float) -> float:
-    """The change of length by the sheet's own formulas: S(ref, phi, max) = sin(ref - max) - sin(phi - max)."""
+    """The change of length by the published formulas: S(ref, phi, max) = sin(ref - max) - sin(phi - max)."""
     kind, arm, most, reference, rho = ARMS[muscle, joint]
     if kind == CONSTANT:
         sign = {"HAM": -1, "GLU": -1, "HFL": 1}[muscle]

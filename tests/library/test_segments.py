@@ -27,7 +27,7 @@ parts:
 initial: {root.z: 0 m}
 simulate: {duration: 1 s, step: 1 ms}
 """
-# Sheet, section 1: mass, center of mass from the parent's joint (forwards, up), inertia.
+# Geyer & Herr (2010): mass, center of mass from the parent's joint (forwards, up), inertia.
 GEYER = {
     "trunk": (53.5, (0, 0.35), 3.0),
     "thigh": (8.5, (0, -0.20), 0.15),
@@ -50,7 +50,7 @@ def test_the_body_of_geyer_and_herr(tmp_path: Path) -> None:
     assert heel == pytest.approx([-0.04, 0, -1.0], abs=1e-12)
 
 
-# Sheet, section 2: mass, center of mass, radius of gyration about the axis from left to right.
+# de Leva (1996): mass, center of mass, radius of gyration about the axis from left to right.
 DE_LEVA = {
     0: {"thigh": (0.1416, 0.4095, 0.329), "shank": (0.0433, 0.4395, 0.246), "foot": (0.0137, 0.4415, 0.245)},
     1: {"thigh": (0.1478, 0.3612, 0.364), "shank": (0.0481, 0.4352, 0.263), "foot": (0.0129, 0.4014, 0.279)},

@@ -101,7 +101,14 @@ def interrupted(process: subprocess.Popen[str], number: signal.Signals = signal.
     return Ended(process.returncode, out, err)
 
 
-@pytest.mark.parametrize(("number", "workers"), [(signal.SIGINT, "2"), (signal.SIGTERM, "2"), (signal.SIGTERM, "0")])
+@pytest.mark.parametrize(
+    ("number", "workers"),
+    [
+        (signal.SIGINT, "2"),
+        pytest.param(signal.SIGTERM, "2", marks=pytest.mark.slow),
+        (signal.SIGTERM, "0"),
+    ],
+)
 def test_a_signal_saves_and_says_how_to_go_on(
     tmp_path: Path, undisturbed: tuple[bytes, bytes], number: signal.Signals, workers: str
 ) -> None:

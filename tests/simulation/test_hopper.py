@@ -1,5 +1,5 @@
-"""The published hopper (Geyer, Seyfarth & Blickhan 2003) against the independent solution of
-hopping.md, section 4: explicit Euler at 0.01 ms. Ours is semi-implicit: equal in the limit."""
+"""The published hopper (Geyer, Seyfarth & Blickhan 2003) against an independent solution by explicit
+Euler at 0.01 ms. The simulator is semi-implicit, so both are equal in the limit of small steps."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def stance() -> Trajectory:
 
 
 def integrated(step: float, until: float) -> NDArray[np.float64]:
-    """The equations of hopping.md, section 1, written out once more: explicit Euler from touchdown.
+    """The published equations, written out once more: explicit Euler from touchdown.
 
     Rows of (t, y, y', F_leg, A, l_CE).
     """
@@ -164,12 +164,11 @@ def test_heights_at_coarser_steps(step: str, height: float, allowed: float) -> N
         (0.14, 0.71087, -0.9517, 3461.0, 0.9948, 0.09472),
         (0.20, 0.70937, 0.7905, 2558.4, 1.0, 0.09751),
         (0.30, 0.85758, 1.9048, 1181.2, 1.0, 0.08495),
-        # The sheet has 112.8 N here, which its own equations do not give: written out once more
-        # (`integrated`) they give 111.1 at its step and 110.7 in the limit.
+        # `integrated` gives 111.1 N at this step and 110.7 N in the limit.
         (0.36, 0.97490, 1.8634, 111.1, 0.389, 0.06718),
     ],
 )
-def test_stance_trace_of_the_sheet(
+def test_stance_trace_of_the_independent_solution(
     time: float,
     position: float,
     velocity: float,
