@@ -47,6 +47,7 @@ QUICK |= {
 }
 UNRUN = ("view", "--cluster", "--help", "--install-completion")
 SHORT = ["--mode", "normal", "--set", "simulate.duration=20 ms"]
+TREE: Any = get_command(app)  # made once: to make it takes longer than most commands
 LONG = ("--vary", "--draws", "--convergence", "--adopt", "--resume", "simulate.")
 
 
@@ -196,7 +197,7 @@ def small(words: list[str]) -> list[str]:
 
 def exists(words: list[str]) -> None:
     """Every command and option that a page names, and every spec."""
-    here: Any = get_command(app)
+    here = TREE
     rest = [word for word in words[1:] if word not in ("--install-completion", "--help")]
     while hasattr(here, "commands") and rest and rest[0] in here.commands:
         here, rest = here.commands[rest[0]], rest[1:]

@@ -6,14 +6,9 @@ from gaitsim.component import Attachment, Component, Input, Link, Output, Parame
 class Spring(Component):
     """Massless leg with a linear spring between the hip and a fixed foothold: the spring-loaded inverted pendulum.
 
-<<<<<<< HEAD
-    In the air it points ahead by the angle of touchdown. It lands when its foot is on the ground, and pushes with
-    k (l_0 - l) along itself until it has its rest length again (Blickhan 1989; Geyer, Seyfarth & Blickhan 2006).
-    A damper beside the spring, if there is one, takes c dl/dt off; the leg then takes off where its force ends.
-=======
-    In flight it has the touchdown angle. It lands when its foot reaches the ground. In stance
-    it pushes with k (l_0 - l) until it reaches its rest length again (Blickhan 1989; Geyer, Seyfarth & Blickhan 2006).
->>>>>>> dc63507 (Library: texts of components, parameters and signals in plain words; a component's trial is called ten times faster; long test files split by subject; tests compile less)
+    In flight it has the touchdown angle. It lands when its foot reaches the ground. In stance it pushes with
+    k (l_0 - l) until it reaches its rest length again (Blickhan 1989; Geyer, Seyfarth & Blickhan 2006). An optional
+    damper parallel to the spring subtracts c dl/dt; the leg then takes off where its force ends.
     Touchdown and take-off are events, located within the step.
     """
 
@@ -31,14 +26,10 @@ class Spring(Component):
     ground = Parameter("m", "Height of the ground.", default=0, bounds=(-100, 100), source="definition: the origin")
     stiffness = Input("N/m", "Stiffness k of the spring.")
     rest_length = Input("m", "Rest length l_0.")
-<<<<<<< HEAD
-    touchdown_angle = Input("rad", "Angle of the leg to the ground in the air; below 90 deg the foot is ahead.")
-    damping = Input("N s/m", "Damping c of the spring while the leg stands.", default=0)
-=======
     touchdown_angle = Input(
         "rad", "Angle between leg and ground in flight; below 90 deg the foot is in front of the hip."
     )
->>>>>>> dc63507 (Library: texts of components, parameters and signals in plain words; a component's trial is called ten times faster; long test files split by subject; tests compile less)
+    damping = Input("N s/m", "Damping c of the spring in stance.", default=0)
     hip_torque = Input("N m", "Torque of the hip that turns the standing foot backwards.", sums=True)
     x = Input("m", "Forward position of the hip.")
     z = Input("m", "Height of the hip.")
