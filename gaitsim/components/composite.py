@@ -79,6 +79,7 @@ def load_composite(reference: str, path: Path, shown: str, text: str) -> Composi
     sections = {name: _mapping(document, name, faults) for name in _SECTIONS if name != "about"}
     if not sections["parts"].entries:
         faults.add("a composite has no parts; write parts: and below it at least one.", document.mark)
+    _told_apart(sections, faults)
     parameters, defaults = declared_parameters(sections["parameters"], faults)
     about = document.entries.get("about")
     text = as_lines(text.removeprefix("\ufeff"))
@@ -99,6 +100,23 @@ def load_composite(reference: str, path: Path, shown: str, text: str) -> Composi
     )
     faults.raise_if_any()
     return composite
+
+
+def _told_apart(sections: dict[str, MappingNode], faults: Faults) -> None:
+    """A fault for each name that an entry of a spec could mean in two ways, such as a parameter and an input."""
+    said: dict[str, str] = {}
+    for section, what in (
+        ("parameters", "a parameter"),
+        ("inputs", "an input"),
+        ("attachments", "an attachment"),
+        ("parts", "a part"),
+    ):
+        for name, key in sections[section].keys.items():
+            if name in said:
+                faults.add(
+                    f"{name} is {said[name]} and {what}; an entry of a spec means one; rename one of the two.", key
+                )
+            said.setdefault(name, what)
 
 
 def declared_parameters(section: MappingNode, faults: Faults) -> tuple[dict[str, Parameter], dict[str, Node]]:

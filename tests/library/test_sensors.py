@@ -27,6 +27,7 @@ parts:
   leg: {use: sensor/orientation, frame: shank.distal}
   body: {use: sensor/center_of_mass}
   foot: {use: sensor/relative_position, frame: shank.distal, origin: trunk.distal}
+  motion: {use: sensor/relative_motion, frame: shank.distal, origin: trunk.distal}
 initial:
   hip.angle: 20 deg
   knee.angle: 30 deg
@@ -116,3 +117,10 @@ simulate: {duration: 1 s, step: 0.5 ms}
     np.testing.assert_allclose(found["leg.load"], found["front.load"] + found["back.load"])
     assert found["leg.load"][-1] == pytest.approx(1, abs=1e-6)
     assert found["front.load"][-1] == pytest.approx(0.5, abs=1e-6)
+
+
+def test_relative_motion_is_the_distance_and_the_rate_of_the_place(moved: Trajectory) -> None:
+    np.testing.assert_allclose(moved["motion.forward"], moved["foot.forward"], atol=1e-12)
+    rate = np.gradient(moved["foot.x"], moved.times)
+    np.testing.assert_allclose(moved["motion.forward_velocity"][1:-1], rate[1:-1], atol=2e-2)
+    np.testing.assert_allclose(moved["motion.medial_velocity"], 0, atol=1e-12)

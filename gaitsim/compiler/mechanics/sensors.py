@@ -22,6 +22,10 @@ class Sensors(Making):
             made.reftype, made.refname = mujoco.mjtObj.mjOBJ_SITE, self._name(f"{surface}.surface")
         return sensor
 
+    def velocity_of(self, place: Point) -> Element:
+        """A sensor of how a place moves in the world: three velocities, in m/s."""
+        return self._sensor("velocity", mujoco.mjtSensor.mjSENS_FRAMELINVEL, self._site("velocity.origin", place))
+
     def orientation_of(self, place: Point) -> tuple[Element, Element]:
         """Sensors of a place's own z axis in the world, and of its angular velocity there in rad/s."""
         site = self._site("axis", place)
