@@ -29,23 +29,15 @@ _FOOTER = """
 
 # Appended by gaitsim: the functions above as one.
 import numpy as _np
-from numba import carray as _carray, njit as _njit, types as _types
+from numba import from_dtype as _from_dtype, njit as _njit, types as _types
 
 _OPTIONS = {options!r}
-_P = _np.dtype({parameters!r})
-_U = _np.dtype({inputs!r})
-_X = _np.dtype({states!r})
-_Y = _np.dtype({outputs!r})
+_RECORDS = [_from_dtype(_np.dtype(_each)) for _each in ({parameters!r}, {inputs!r}, {states!r}, {outputs!r})]
 {functions}
-_POINTERS = (_types.voidptr,) * 4
 
 
-@_njit(_types.int64(_types.int64, *_POINTERS, _types.float64), **_OPTIONS)
-def kernel(stage, p, u, x, y, dt):
-    parameters = _carray(p, 1, _P)[0]
-    inputs = _carray(u, 1, _U)[0]
-    states = _carray(x, 1, _X)[0]
-    outputs = _carray(y, 1, _Y)[0]
+@_njit(_types.int64(_types.int64, *_RECORDS, _types.float64), **_OPTIONS)
+def kernel(stage, parameters, inputs, states, outputs, dt):
 {calls}
     return 0
 """
