@@ -1,9 +1,9 @@
-"""From a model to programs and to MuJoCo.
+"""From a model to a program, to native code, and to MuJoCo.
 
-MuJoCo looks for OpenGL as it is imported and fails where MUJOCO_GL names none that is there. Only
-pictures need OpenGL, so it is then imported without; `gaitsim.animation` says what is missing. A
-command imports it without in any case: that saves a process that GLFW starts to ask for its version,
-and our pictures load what they need. In a notebook mujoco.Renderer stays whole.
+MuJoCo loads OpenGL when it is imported, and fails if MUJOCO_GL names an OpenGL that is missing. Only pictures need
+OpenGL, so MuJoCo is then imported without it, and `gaitsim.animation` reports what is missing. Commands always import
+it without OpenGL: GLFW would start a process to find its version, and our pictures load OpenGL themselves. In a
+notebook, mujoco.Renderer works as usual.
 """
 
 import os

@@ -1,6 +1,6 @@
-"""Steps with events in LLVM's language: Runge-Kutta steps of order 4, cut where an output `guard` rises through 0.
+"""Steps with events in LLVM IR: Runge-Kutta steps of order 4, divided where an output `guard` rises through 0.
 
-`simulation/events.py` is the same in plain Python, to be read first.
+`simulation/events.py` does the same in plain Python and should be read first.
 """
 
 from __future__ import annotations
@@ -22,12 +22,16 @@ _MOVE = {**_STEP, "begin": "pointer", "speed": "pointer", "span": "number"}
 
 @dataclass
 class Events:
-    """What a translation needs to step a plan with guards."""
+    """What a translation needs for the steps of a plan with guards."""
 
     of: Translation
 
     def advance(self, f: Writer) -> Any:
-        """A whole step of the mechanics: whether all went well."""
+        """Emit one whole step of the mechanics.
+
+        Returns:
+            The flag of success.
+        """
         if "advance" not in self.of.names:
             self._look()
             self._rates()
@@ -45,13 +49,13 @@ class Events:
     # --- one stage ---
 
     def _look(self) -> None:
-        """All outputs at the present positions and velocities."""
+        """Emit the outputs at the present positions and velocities."""
         f = self._function("look", _STEP)
         self.of._look(f, lambda good, _: f.return_if(f.builder.not_(good), FLAG(0)))
         f.builder.ret(FLAG(1))
 
     def _rates(self) -> None:
-        """All outputs, and the accelerations that follow from them."""
+        """Emit the outputs and the accelerations that follow from them."""
         f = self._function("rates", _STEP)
         f.return_if(f.builder.not_(self._call(f, "look", _STEP)), FLAG(0))
         self.of._write(f)
@@ -62,7 +66,7 @@ class Events:
     # --- one step of Runge-Kutta ---
 
     def _move(self) -> None:
-        """From `begin` and `speed` on for a time `span`; then all outputs there."""
+        """Emit a Runge-Kutta step of length `span` from `begin` and `speed`, and the outputs at its end."""
         f = self._function("move", _MOVE)
         b, size = f.builder, self.of.plan.coordinates[0]
         velocities, accelerations = (b.alloca(DOUBLE, size=max(size, 1)) for _ in range(2))
@@ -85,7 +89,7 @@ class Events:
         b.ret(self._call(f, "look", _STEP))
 
     def _shift(self, f: Writer, i: Any, time: Any, velocity: Any, acceleration: Any) -> None:
-        """Set one coordinate and its rate: those of the beginning, and a time at these rates."""
+        """Emit one coordinate and its rate after a time, from their values at the beginning and the given rates."""
         b = f.builder
         f.store(b.fadd(f.load(f.begin, i), b.fmul(time, velocity)), f.qpos, i)
         f.store(b.fadd(f.load(f.speed, i), b.fmul(time, acceleration)), f.qvel, i)
@@ -94,7 +98,7 @@ class Events:
 
     @property
     def _resets(self) -> int:
-        """Where the addresses of what events set begin."""
+        """The first address of the numbers that events set."""
         return len(self.of.plan.reads) + len(self.of.plan.writes)
 
     def _advance(self) -> None:
@@ -127,7 +131,7 @@ class Events:
             f.store(f.load(f.outputs, guard), f.before, k)
 
     def _halve(self, f: Writer, low: Any, high: Any) -> None:
-        """Bring `low` and `high` together at the first event between them."""
+        """Emit the bisection that brings `low` and `high` together at the first event between them."""
         b = f.builder
         with f.times(INTEGER(HALVINGS)):
             least, most = b.load(low, typ=DOUBLE), b.load(high, typ=DOUBLE)
@@ -141,7 +145,7 @@ class Events:
         f.return_if(f.builder.not_(self._call(f, "move", _STEP, f.begin, f.speed, span)), FLAG(0))
 
     def _risen(self, f: Writer, only: int | None = None) -> Any:
-        """Whether a guard, of one part or of any, has risen through 0."""
+        """Emit the test whether a guard, of one part or of any, rose through 0."""
         b, found = f.builder, FLAG(0)
         for k, (_, guard) in enumerate(self.of.plan.guards):
             if only in (None, k):
@@ -151,7 +155,7 @@ class Events:
         return found
 
     def _reset(self, f: Writer, elapsed: Any) -> None:
-        """What the events of this instant change: coordinates, and states of their parts."""
+        """Emit what the events of this instant change: coordinates, and states of their parts."""
         b, plan = f.builder, self.of.plan
         pairs = [tuple(self._sent(f, *each) for each in pair) for pair in plan.resets]
         for k, (value, when) in enumerate(pairs):

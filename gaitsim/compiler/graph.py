@@ -1,4 +1,4 @@
-"""In what order outputs are computed, so that every one finds its inputs done."""
+"""The order in which outputs are computed, so that the inputs of each are computed before it."""
 
 from __future__ import annotations
 
@@ -14,17 +14,22 @@ Port = tuple[int, str]
 
 @dataclass(frozen=True)
 class Call:
-    """One call of a part's `output`; the last one of a step has all its inputs."""
+    """One call of a part's `output`. At the last call of a step, all inputs of the part are known."""
 
     part: int
     last: bool
 
 
 def schedule(model: Model, delayed: Iterable[Connection]) -> tuple[Call, ...]:
-    """Calls of `output` in order: a part is called again if some outputs wait for others' outputs.
+    """Order the calls of `output`. A part is called again if some of its outputs need outputs that depend on others
+    of it.
+
+    Args:
+        model: The model.
+        delayed: The connections with a delay, which do not count.
 
     Raises:
-        InvalidSpec: A loop without a state or a delay; it prints the loop.
+        InvalidSpec: A loop has neither a state nor a delay; the message shows the loop.
     """
     index = {part.address: i for i, part in enumerate(model.parts)}
     cut = {id(connection) for connection in delayed}
@@ -44,7 +49,7 @@ def schedule(model: Model, delayed: Iterable[Connection]) -> tuple[Call, ...]:
 
 
 class _Waiting:
-    """Outputs that are not computed yet, and how many of what each needs is not either."""
+    """The outputs that are not computed yet, and for each the number of inputs that are missing."""
 
     def __init__(self, needs: dict[Port, set[Port]]) -> None:
         self.lacking = {port: sum(need in needs for need in wanted) for port, wanted in needs.items()}
@@ -61,7 +66,7 @@ class _Waiting:
                 self._can(port)
 
     def next(self) -> int | None:
-        """The part to call next; None if none can be."""
+        """The part to call next; None if no part can be called."""
         while self.queue:
             rank, part = heapq.heappop(self.queue)
             if self.ready[part] and rank == self._rank(part):
@@ -69,7 +74,7 @@ class _Waiting:
         return None
 
     def call(self, part: int) -> None:
-        """Compute all that can be."""
+        """Compute the outputs of a part that can be computed."""
         done, self.ready[part] = self.ready[part], set()
         self.outputs[part] -= done
         for output in done:
@@ -86,7 +91,9 @@ class _Waiting:
             heapq.heappush(self.queue, (rank, part))
 
     def _rank(self, part: int) -> int | None:
-        """0: all its outputs can be computed. 1: it is called again anyhow. 2: it would have to be. None: no use."""
+        """The preference of a part: 0 if all its outputs can be computed, 1 if it is called again in any case, 2 if
+        it would have to be called again, None if a call computes nothing.
+        """
         if self.ready[part] == self.outputs[part]:
             return 0
         reached = {port for output in self.ready[part] for port in self.readers.get((part, output), ())}
@@ -119,7 +126,7 @@ def _ordered(model: Model, needs: dict[Port, set[Port]]) -> list[int]:
 
 
 def _loop(model: Model, needs: dict[Port, set[Port]], waiting: dict[int, set[str]]) -> Fault:
-    """A fault that prints one loop, sender by sender."""
+    """A fault that shows one loop, sender by sender."""
     ports = [(part, output) for part, outputs in waiting.items() for output in sorted(outputs)]
     port = next(p for p in ports if any(n[1] in waiting.get(n[0], ()) for n in needs[p]))
     path: list[Port] = []

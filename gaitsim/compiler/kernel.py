@@ -1,7 +1,7 @@
-"""One kernel per component type, in LLVM's language, kept by the digest of everything it is made from.
+"""One kernel for each type of component, as LLVM bitcode, cached by the digest of everything that it is made from.
 
-The texts of the component and of the files that it imports from are compiled as they are, so that line
-numbers hold, and a footer turns the component's functions into one. numba is imported only when a kernel is made.
+The texts of the component and of its shared files are compiled unchanged, so that line numbers are correct. A footer
+makes one function of the component's functions. numba is imported only when a kernel is compiled.
 """
 
 from __future__ import annotations
@@ -64,13 +64,21 @@ define i64 @{name}.alone(i64 %stage, ptr %p, ptr %u, ptr %x, ptr %y, double %dt)
 
 @dataclass(frozen=True)
 class Kernel:
-    """The native functions of one component type: their name in LLVM's language, which no other kernel has."""
+    """The native functions of one type of component.
+
+    Attributes:
+        name: The name in LLVM IR, which no other kernel has.
+    """
 
     component: Primitive
     name: str
 
     def bitcode(self) -> bytes:
-        """The module that has `int32 name(result*, exception**, stage, p*, u*, x*, y*, dt)`; not 0 if it raised.
+        """Compile the kernel, or read it from the cache.
+
+        Returns:
+            A module with `int32 name(result*, exception**, stage, p*, u*, x*, y*, dt)`, which returns 0 unless it
+                raises.
 
         Raises:
             InvalidComponent: The component cannot become native code.
@@ -84,14 +92,17 @@ class Kernel:
 
 @cache
 def kernel_of(component: Primitive) -> Kernel:
-    """The kernel of a component, which nothing compiles before its code is asked for."""
+    """The kernel of a component. It is compiled when its bitcode is first needed."""
     text = component.code + _footer(component)
     digest = hashlib.sha256(f"{text}|{machine.environment()}".encode()).hexdigest()
     return Kernel(component, f"kernel.{digest[:32]}")
 
 
 def address_of(component: Primitive) -> int:
-    """The address of a component's native function alone: `int64 (stage, p*, u*, x*, y*, dt)`, not 0 if it raised.
+    """Load a component's native function alone.
+
+    Returns:
+        The address of `int64 (stage, p*, u*, x*, y*, dt)`, which returns 0 unless it raises.
 
     Raises:
         InvalidComponent: The component cannot become native code.
@@ -125,7 +136,7 @@ def _compiled(kernel: Kernel) -> bytes:
 
 
 def _executed(kernel: Kernel) -> ModuleType:
-    """A component's text and footer as a module; what they tell numba to compile is compiled here."""
+    """Execute the text of a component and its footer as a module; numba compiles what the footer tells it to."""
     component = kernel.component
     module = ModuleType(kernel.name.replace(".", "_"))
     sys.modules[module.__name__] = module
@@ -159,7 +170,7 @@ def _footer(component: Primitive) -> str:
 
 
 def _make_native(spaces: Iterable[dict[str, Any]]) -> None:
-    """Put native functions in the place of all functions of some namespaces, whose constants are computed by then."""
+    """Replace all functions of some namespaces by native ones. Their constants are computed before."""
     from numba import njit
 
     made: dict[FunctionType, Any] = {}
@@ -171,7 +182,7 @@ def _make_native(spaces: Iterable[dict[str, Any]]) -> None:
 
 
 def _layout(fields: dict[str, int | None]) -> list[tuple[str, str] | tuple[str, str, tuple[int]]]:
-    """A record of doubles, some of them arrays; never empty, as a record must have a field."""
+    """A record of doubles, some of them arrays. It has at least one field, as numba requires."""
     made: list[tuple[str, str] | tuple[str, str, tuple[int]]] = []
     for name, size in fields.items():
         made.append((name, "f8") if size is None else (name, "f8", (size,)))
@@ -179,7 +190,7 @@ def _layout(fields: dict[str, int | None]) -> list[tuple[str, str] | tuple[str, 
 
 
 def _explained(error: Exception, component: Primitive) -> Fault:
-    """The first sentence of the compiler, and the line it is about."""
+    """The first sentence of numba's message, and the line that it is about."""
     text = re.sub(r"\x1b\[[0-9;]*m", "", str(error))
     places = [(file, int(n)) for file, n in re.findall(r'File "(.*?)", line (\d+)', text)]
     texts = {component.shown: component.text} | {file.shown: file.text for file in component.shared}

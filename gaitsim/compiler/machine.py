@@ -1,7 +1,7 @@
-"""From LLVM's language to machine code that can be called; knows nothing of models.
+"""From LLVM IR to machine code that can be called. This module does not know models.
 
-Machine code is kept as an object file with the names of the functions that it calls, so that loading it takes
-neither numba nor LLVM's passes.
+Machine code is cached as an object file with the names of the functions that it calls, so that loading it needs neither
+numba nor LLVM's optimization.
 """
 
 from __future__ import annotations
@@ -31,18 +31,18 @@ _MAKERS = ("events", "kernel", "machine", "native", "records", "stopwatch", "tra
 
 @dataclass(frozen=True)
 class Code:
-    """Machine code in memory, for as long as this lives."""
+    """Machine code in memory. It is freed with this object."""
 
     engine: Any = field(repr=False)
 
     def address(self, name: str) -> int:
-        """Where a function begins."""
+        """The address of a function."""
         return int(self.engine.get_function_address(name))
 
 
 @cache
 def environment() -> str:
-    """What machine code depends on besides the text that it is made from: what makes it, and for which processor."""
+    """A text with everything on which machine code depends besides its source: versions and the processor."""
     folder = Path(__file__).parent
     own = [hashlib.sha256((folder / f"{name}.py").read_bytes()).hexdigest() for name in _MAKERS]
     versions = [llvmlite.__version__, version("numba"), np.__version__, mujoco.__version__, sys.version]
@@ -72,7 +72,7 @@ def _target_machine() -> Any:
 
 
 def linked(text: str, modules: Iterable[bytes]) -> Any:
-    """A module in LLVM's language with modules of bitcode linked in."""
+    """Parse a module of LLVM IR and link modules of bitcode into it."""
     machine = _target_machine()
     module = llvm.parse_assembly(text)
     module.triple, module.data_layout = llvm.get_process_triple(), str(machine.target_data)
@@ -82,7 +82,7 @@ def linked(text: str, modules: Iterable[bytes]) -> Any:
 
 
 def stripped(module: Any, exported: Sequence[str]) -> Any:
-    """The module with nothing but what its exported functions need."""
+    """The module with only what its exported functions need."""
     _internalize(module, exported)
     passes = llvm.create_new_module_pass_manager()
     passes.add_global_dead_code_eliminate_pass()
@@ -97,7 +97,11 @@ def _internalize(module: Any, exported: Sequence[str]) -> None:
 
 
 def object_file(module: Any, exported: Sequence[str]) -> bytes:
-    """Optimized machine code of a module, and what it calls of others. No rule of arithmetic is bent."""
+    """Compile a module to optimized machine code. Floating-point arithmetic is not relaxed.
+
+    Returns:
+        The names of the functions that it calls, and the object file, as bytes for the cache.
+    """
     _internalize(module, exported)
     machine = _target_machine()
     options = llvm.create_pipeline_tuning_options(speed_level=2)
@@ -111,7 +115,13 @@ def object_file(module: Any, exported: Sequence[str]) -> bytes:
 
 
 def code(kind: str, key: str, make: Callable[[], bytes]) -> Code:
-    """The machine code of an object file that is kept under a key, and made if it is not there."""
+    """Load the machine code of a cache entry; make the entry if it is missing.
+
+    Args:
+        kind: The kind of the entry.
+        key: Its key.
+        make: Makes the object file.
+    """
     file = kept(kind, key)
     if file is None:
         file = make()
@@ -132,7 +142,7 @@ def _loaded(file: bytes) -> Code:
 
 
 def _provide(names: Sequence[str]) -> None:
-    """Make sure that all functions that code calls can be found: LLVM ends the process if one cannot."""
+    """Make the functions that code calls available. LLVM ends the process if one is missing."""
     _provide_mujoco()
     if not all(_known(name) for name in names):
         _provide_numba()
@@ -145,7 +155,7 @@ def _known(name: str) -> bool:
 
 
 def set_clock(address: int | None) -> None:
-    """What MuJoCo's own timers read: a function that returns a number, or nothing, so that they stand still."""
+    """Set the function that MuJoCo's timers call; without a function the timers stand still."""
     ctypes.c_void_p.in_dll(_mujoco(), "mjcb_time").value = address
 
 
@@ -165,7 +175,7 @@ def _provide_mujoco() -> None:
 
 @cache
 def _provide_numba() -> None:
-    """What numba's code calls of numba itself is there once numba has compiled anything."""
+    """Make the functions of numba's runtime available; they are registered when numba compiles anything."""
     import numba
 
     numba.njit("int64()")(lambda: 0)

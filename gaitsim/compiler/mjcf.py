@@ -1,4 +1,4 @@
-"""From a model to MuJoCo: parts in the order of the tree of bodies, every element with its place."""
+"""From a model to MuJoCo: parts in the order of the tree of bodies, elements with their place in the spec."""
 
 from __future__ import annotations
 
@@ -31,10 +31,10 @@ AFTER_VELOCITIES = int(mujoco.mjtStage.mjSTAGE_VEL)  # what mj_step1 has done wh
 
 @dataclass(frozen=True)
 class Assembly:
-    """A MuJoCo model and the ties between it and the ports of parts: (part's index, tie).
+    """A MuJoCo model, and the ties between it and the ports of parts as pairs (index of the part, tie).
 
-    Resets are what events set. Constants are what parts read of the compiled model; they lie in MuJoCo's
-    userdata. Drawings are what parts want to be seen beside their bodies.
+    Resets are numbers that events set. Constants are numbers that parts read from the compiled model; they are kept in
+    MuJoCo's userdata. Drawings are shown beside the bodies in films.
     """
 
     spec: Any
@@ -50,7 +50,7 @@ class Assembly:
 
     @property
     def runge_kutta(self) -> bool:
-        """Whether MuJoCo steps by rk4."""
+        """Whether MuJoCo uses the integrator rk4."""
         return bool(self.model.opt.integrator == _INTEGRATORS["rk4"])
 
     @property
@@ -60,7 +60,12 @@ class Assembly:
 
 
 def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Assembly:
-    """Build and compile the mechanics for one set of numbers; `dressed`: with what is only to be looked at.
+    """Build and compile the mechanics.
+
+    Args:
+        model: The model.
+        values: All numbers of the model, in SI.
+        dressed: Whether to add what only films show.
 
     Raises:
         InvalidSpec: The bodies form no tree or MuJoCo refuses an element.
@@ -124,10 +129,11 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
 
 
 def _integrator(model: Model, compiled: Any) -> Any:
-    """The chosen one; or by itself Euler, unless an actuator has a force that depends on velocity.
+    """The integrator that the spec chooses; with `automatic`, Euler unless the force of an actuator depends on
+    velocity.
 
     Raises:
-        InvalidSpec: For rk4 if one has.
+        InvalidSpec: It is rk4, and the force of an actuator depends on velocity.
     """
     chosen = model.simulate.integrator
     damped = compiled.actuator_gainprm[:, 2].nonzero()[0]
@@ -155,7 +161,7 @@ def _integrator(model: Model, compiled: Any) -> Any:
 
 
 def _unused_stages(compiled: Any) -> int:
-    """The stage of a step that finds contacts, limits and other constraints, if the model has none of them."""
+    """The stage of a step that handles contacts, limits and other constraints, if the model has none of them."""
     rubs = compiled.dof_frictionloss.any() or compiled.tendon_frictionloss.any()
     stops = compiled.jnt_limited.any() or compiled.tendon_limited.any()
     touches = (compiled.geom_contype[:, None] & compiled.geom_conaffinity).any() or compiled.npair
@@ -164,7 +170,7 @@ def _unused_stages(compiled: Any) -> int:
 
 
 def _end(branch: Branch, name: str, values: Sequence[float], frames: Frames) -> Point:
-    """Where the parent or the child of a branch's joints is."""
+    """The place of the parent or the child of a branch's joints."""
     joint = branch.joints[0]
     return frames.point(joint.attachments[name], beside_frames(joint, values).get(name, (0, 0, 0)))
 
@@ -186,7 +192,7 @@ _FIRST = {
 
 
 def tie_place(model: Any, tie: Tie) -> int:
-    """Where in its array of MuJoCo's data a tied number lies."""
+    """The index of a tied number in its array of MuJoCo's data."""
     if tie.element is None:
         return tie.index
     element = mujoco.mj_name2id(model, _KINDS[tie.element.kind], tie.element.name)
@@ -195,7 +201,7 @@ def tie_place(model: Any, tie: Tie) -> int:
 
 
 def _compiled(spec: Any, parts: Mapping[str, Part]) -> Any:
-    """MuJoCo's model; what it refuses is told at the part whose place it names (`info`)."""
+    """Compile MuJoCo's model. An error of MuJoCo is reported at the part whose place it names (`info`)."""
     try:
         return spec.compile()
     except ValueError as error:

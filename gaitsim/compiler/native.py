@@ -1,4 +1,4 @@
-"""Native code of a plan: what its functions are given and return."""
+"""The native code of a plan: arguments and results of its functions."""
 
 from __future__ import annotations
 

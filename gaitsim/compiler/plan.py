@@ -1,4 +1,4 @@
-"""What native code of a program is made from: plain numbers, none of which a candidate changes."""
+"""A plan: what native code of a program is made from. It has plain numbers only, and none depends on the candidate."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ from gaitsim.model import Part
 
 @dataclass(frozen=True)
 class Piece:
-    """One part in native code: its kernel, where its fields lie in the tables, and how many there are.
+    """One part in native code: its kernel, the places of its fields in the tables, and their number.
 
     Attributes:
-        wary: Its code might never end on numbers that are not finite, so it must not see any.
+        wary: Whether its code may run forever on numbers that are not finite, so that it must not get any.
     """
 
     kernel: str
@@ -34,11 +34,11 @@ class Piece:
 
 @dataclass(frozen=True)
 class Step:
-    """One call of a part's `output`;
+    """One call of a part's `output`.
 
     Attributes:
         last: Whether all inputs are known at this call.
-        always: In every step, not at the start only.
+        always: Whether it is called in every step, and not only at the start.
     """
 
     piece: int
@@ -48,19 +48,19 @@ class Step:
 
 @dataclass(frozen=True)
 class Plan:
-    """The pieces, who is called in which order, and what reads what.
+    """The parts, the order of calls, and the connections.
 
     Attributes:
         senders: For each input its senders as (output, delay line or -1).
-        constant: Inputs that have a number of their own besides.
+        constant: The inputs that have a number of their own besides.
         lines: The output that each delay line keeps.
-        signals: What is recorded, a place in the outputs or behind them in the states.
-        reads: An output and whether it may change after the start, for each number read of MuJoCo. writes: (an output?
-            its place, sign) for each number written there.
-        coordinates: How many positions and velocities MuJoCo has.
-        runge_kutta: Whether MuJoCo steps by rk4.
-        guards: Parts with events, and the output that rises through 0 then.
-        resets: What events set, as of `writes`, and the same of when they do.
+        signals: The recorded signals: indices of outputs, followed by states.
+        reads: For each number read from MuJoCo, the output and whether it can change after the start.
+        writes: For each number written to MuJoCo: whether it is an output, its index, and its sign.
+        coordinates: The number of MuJoCo's positions and velocities.
+        runge_kutta: Whether MuJoCo uses the integrator rk4.
+        guards: The parts with events, and the output that rises through 0.
+        resets: The numbers that events set, as in `writes`, and the port that says when.
     """
 
     pieces: tuple[Piece, ...]
@@ -82,7 +82,15 @@ class Plan:
 
 
 def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kernel]]:
-    """The plan of a program with its mechanics, and the kernels that it names."""
+    """Make the plan of a program.
+
+    Args:
+        program: The program.
+        assembly: Its mechanics.
+
+    Returns:
+        The plan, and the kernels by the name that it uses.
+    """
     parts = program.model.parts
     kernels = [kernel_of(part.type) for part in parts]
     reads = [(program.outputs.place(i, tie.port), tie.field != "userdata") for i, tie in assembly.reads]
@@ -127,10 +135,10 @@ def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kerne
 
 
 def _constant_parts(program: Program, moved: set[int]) -> set[int]:
-    """Parts whose outputs stay what they are at the start, so that they are not called again.
+    """The parts whose outputs do not change after the start, so that they are not called again.
 
     Args:
-        moved: Parts with outputs that MuJoCo changes.
+        moved: The parts with outputs that MuJoCo changes.
     """
     found: set[int] = set()
     for call in program.calls:
@@ -144,7 +152,7 @@ def _constant_parts(program: Program, moved: set[int]) -> set[int]:
 
 
 def _read(part: Part) -> Sequence[str]:
-    """The inputs that a call of `output` depends on; all of them if it might raise."""
+    """The inputs on which a call of `output` depends; all of them if it may raise."""
     kind = part.type
     if "output" not in kind.functions:
         return ()
@@ -165,5 +173,5 @@ def _may_raise(kind: Primitive) -> bool:
 
 @cache
 def _has_open_loop(kind: Primitive) -> bool:
-    """Whether a loop goes on until something is reached, or for a number of times that is computed."""
+    """Whether a loop ends at a condition or after a computed number of iterations."""
     return _OPEN_LOOP.search(kind.code) is not None

@@ -1,4 +1,4 @@
-"""A program: a model laid out as tables of numbers, the same for rapid and normal mode."""
+"""A program: the layout of a model as tables of numbers, the same for rapid and normal mode."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ STARTING_ROUNDS = 3  # a fiber, its delayed length, the reflex and the activatio
 
 @dataclass(frozen=True)
 class Layout:
-    """Where each part's fields begin in one of the tables p, u, x, y; a field per name."""
+    """The place of every part's fields in one of the tables p, u, x and y."""
 
     offsets: Integers
     fields: tuple[dict[str, int], ...]
@@ -30,11 +30,11 @@ class Layout:
     size: int
 
     def place(self, part: int, name: str) -> int:
-        """The place of one field in the whole table."""
+        """The index of one field in the table."""
         return int(self.offsets[part]) + self.fields[part][name]
 
     def slices(self, part: int, sizes: dict[str, int]) -> dict[str, int | slice]:
-        """The places of one part's fields by name; of an array, whose size is given, all of them."""
+        """The indices of a part's fields by name; a slice for an array, whose size is given."""
         places: dict[str, int | slice] = {}
         for name in self.fields[part]:
             begin = self.place(part, name)
@@ -42,7 +42,7 @@ class Layout:
         return places
 
     def span(self, part: int) -> range:
-        """The places of all fields of one part."""
+        """The indices of all fields of one part."""
         begin = int(self.offsets[part])
         return range(begin, begin + self.sizes[part])
 
@@ -69,7 +69,7 @@ def _layout(sizes: Sequence[dict[str, int]]) -> Layout:
 
 @dataclass(frozen=True)
 class DelayLine:
-    """A delayed connection: what it reads, the number that is its delay, its value before the start."""
+    """A delayed connection: the output it reads, the number that is its delay, and its value before the start."""
 
     sender: int
     number: int
@@ -78,7 +78,7 @@ class DelayLine:
 
 @dataclass(frozen=True)
 class _Filling:
-    """How a table is filled for a candidate: fixed numbers, and places that take numbers of the model."""
+    """How a table is filled for a candidate: fixed numbers, and places for numbers of the model."""
 
     fixed: Floats
     places: Integers
@@ -86,11 +86,11 @@ class _Filling:
 
     @staticmethod
     def of(fixed: Floats, chosen: dict[int, int]) -> _Filling:
-        """From the numbers that do not change, and for each other place the index of its number."""
+        """Make a filling from the fixed numbers, and the index of the number for each other place."""
         return _Filling(fixed, np.array(list(chosen), dtype=np.int64), np.array(list(chosen.values()), dtype=np.int64))
 
     def filled(self, values: Floats) -> Floats:
-        """A new table for all numbers of a candidate."""
+        """A new table, given all numbers of a candidate."""
         table = self.fixed.copy()
         table[self.places] = values[self.numbers]
         return table
@@ -98,7 +98,7 @@ class _Filling:
 
 @dataclass(frozen=True)
 class Program:
-    """A model with its order of calls and its tables; compiled once, run for any candidate."""
+    """A model with its order of calls and its tables. It is compiled once and runs any candidate."""
 
     model: Model
 
@@ -125,7 +125,7 @@ class Program:
 
     @cached_property
     def field_places(self) -> tuple[tuple[dict[str, int | slice], ...], ...]:
-        """For each part where its fields lie in the four tables p, u, x and y; an array has a slice."""
+        """For each part, the places of its fields in the four tables p, u, x and y; a slice for an array."""
         layouts = (self.parameters, self.inputs, self.states, self.outputs)
         return tuple(
             tuple(layout.slices(i, sizes) for layout, sizes in zip(layouts, _sizes(part), strict=True))
@@ -138,25 +138,25 @@ class Program:
 
     @cached_property
     def updates(self) -> tuple[int, ...]:
-        """Parts whose states advance."""
+        """The parts with an `update`."""
         return tuple(i for i, p in enumerate(self.model.parts) if "update" in p.type.functions)
 
     @cached_property
     def guarded(self) -> tuple[int, ...]:
-        """Parts with events."""
+        """The parts with events."""
         return tuple(i for i, p in enumerate(self.model.parts) if p.guarded)
 
     @cached_property
     def stops(self) -> tuple[int, ...]:
-        """Parts that may end the run."""
+        """The parts that may end the run."""
         return tuple(i for i, p in enumerate(self.model.parts) if p.measure and "stop" in p.type.outputs)
 
     @cached_property
     def delays(self) -> tuple[DelayLine, ...]:
-        """The delay lines, in the order of the connections that have one.
+        """The delay lines, in the order of their connections.
 
         Raises:
-            InvalidSpec: A delay that may be shorter than a step.
+            InvalidSpec: A delay can be shorter than a step.
         """
         faults, lines = Faults(), []
         step = self.model.simulate.step
@@ -177,7 +177,7 @@ class Program:
 
     @cached_property
     def senders(self) -> tuple[tuple[tuple[int, int], ...], ...]:
-        """For each input: its senders as (output, delay line or -1)."""
+        """For each input, its senders as (output, delay line or -1)."""
         found: list[list[tuple[int, int]]] = [[] for _ in range(self.inputs.size)]
         line = 0
         for connection in self.model.connections:
@@ -189,12 +189,12 @@ class Program:
 
     @cached_property
     def signals(self) -> tuple[str, ...]:
-        """What a trajectory has: the addresses of `recorded_signals`."""
+        """The addresses of all recorded signals."""
         return tuple(signal.address for signal in recorded_signals(self.model))
 
     @cached_property
     def signal_places(self) -> Integers:
-        """Where each signal lies: in the table of outputs, or behind it in that of the states."""
+        """The index of each signal in the table of outputs, continued by the table of states."""
         found = []
         for signal in recorded_signals(self.model):
             part, name = self.port(signal.address)
@@ -204,16 +204,20 @@ class Program:
         return np.array(found, dtype=np.int64)
 
     def port(self, address: str) -> tuple[int, str]:
-        """A port's part and name."""
+        """The part and the name of a port."""
         owner, _, name = address.rpartition(".")
         return self.index[owner], name
 
     def part_of_output(self, place: int) -> int:
-        """The part that a place in the table of outputs belongs to."""
+        """The part of an index in the table of outputs."""
         return int(np.searchsorted(self.outputs.offsets, place, side="right")) - 1
 
     def parameter_table(self, values: Floats) -> Floats:
-        """Every part's parameters for one candidate."""
+        """The parameters of all parts.
+
+        Args:
+            values: All numbers of the model for a candidate, in SI.
+        """
         return self._parameters_from.filled(values)
 
     @cached_property
@@ -229,7 +233,11 @@ class Program:
         return _Filling.of(fixed, chosen)
 
     def input_base(self, values: Floats) -> Floats:
-        """What each input has without its senders: a constant, or the default."""
+        """The value of each input without its senders: a constant, or the default.
+
+        Args:
+            values: All numbers of the model for a candidate, in SI.
+        """
         return self._base_from.filled(values)
 
     @cached_property
@@ -246,16 +254,19 @@ class Program:
 
     @cached_property
     def has_base(self) -> tuple[bool, ...]:
-        """Which inputs have more than their senders, for some candidate."""
+        """For each input, whether it has a constant or a default besides its senders."""
         found = self._base_from.fixed != 0
         found[self._base_from.places] = True
         return tuple(bool(each) for each in found)
 
     def delay_steps(self, values: Floats) -> Floats:
-        """Each delay line's delay in steps; nearly whole numbers are whole.
+        """The delay of each delay line in steps. Values within rounding of an integer become that integer.
+
+        Args:
+            values: All numbers of the model for a candidate, in SI.
 
         Raises:
-            SimulationFailed: A delay that an expression makes shorter than a step.
+            SimulationFailed: An expression makes a delay shorter than a step.
         """
         step = self.model.simulate.step
         steps = np.array([values[line.number] / step for line in self.delays])
@@ -269,17 +280,17 @@ class Program:
         return steps
 
     def _delayed(self, connection: Connection) -> bool:
-        """Whether a connection has a delay; a fixed delay of zero is none."""
+        """Whether a connection has a delay; a fixed delay of zero does not count."""
         if connection.delay is None:
             return False
         return self.model.varying[connection.delay] or self._starts[connection.delay] != 0
 
     @cached_property
     def _starts(self) -> list[float]:
-        """Every number at the start of a search."""
+        """Every number of the model at the start of a search."""
         return self.model.values()
 
 
 def measures(model: Model) -> list[tuple[int, Part]]:
-    """The parts that report metrics."""
+    """The parts that report metrics, with their indices."""
     return [(i, part) for i, part in enumerate(model.parts) if part.type.metrics]

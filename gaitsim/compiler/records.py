@@ -1,4 +1,4 @@
-"""The part of a plan in LLVM's language that keeps signals of each step in a row of the record."""
+"""The part of a plan in LLVM IR that stores signals of each step in a row of the record."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from gaitsim.compiler.writer import INTEGER, NOTHING, POINTER, Writer
 
 @dataclass(frozen=True)
 class Records:
-    """Writes into a module; `function` begins a new one, `names` has those that are there."""
+    """Writes functions into a module."""
 
     text: Any
     names: dict[str, Any]
@@ -22,7 +22,7 @@ class Records:
     plan: Plan
 
     def kept(self) -> None:
-        """Copy numbers of a table into a row: pairs of where to and where from."""
+        """Emit the copy of numbers of a table into a row, by pairs of target and origin."""
         arguments = {**dict.fromkeys(("row", "table", "pairs"), "pointer"), "count": "integer"}
         f = self.function("kept", NOTHING, arguments)
         with f.times(f.count) as i:

@@ -1,4 +1,4 @@
-"""A plan in LLVM's language that also counts how long each of its parts takes, in ticks of the processor's counter."""
+"""A plan in LLVM IR that measures how long each of its parts takes, in ticks of the processor's counter."""
 
 from __future__ import annotations
 
@@ -20,9 +20,10 @@ _COUNTER = "llvm.readsteadycounter" if platform.machine().lower() in ("arm64", "
 
 @dataclass
 class TimedTranslation(Translation):
-    """Adds to `ticks`: for each part, the halves of MuJoCo's step, reading the counter, and all steps.
+    """Adds times to `ticks`: of each part, of both halves of MuJoCo's step, of reading the counter, and of all
+    steps.
 
-    `clock` gives the counter to MuJoCo, as the time of its own timers.
+    `clock` returns the counter to MuJoCo's own timers.
     """
 
     def module(self) -> Any:

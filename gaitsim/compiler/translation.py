@@ -1,7 +1,7 @@
-"""A plan in LLVM's language: one function that starts a model and one that runs it.
+"""A plan in LLVM IR: a function that starts a model and a function that runs it.
 
-Everything that no candidate changes is a constant there. `simulation/python_loop.py` is the same in plain
-Python, to be read first.
+Everything that does not depend on the candidate is a constant. `simulation/python_loop.py` does the same in plain
+Python and should be read first.
 """
 
 from __future__ import annotations
@@ -43,16 +43,16 @@ class Translation:
 
     @cached_property
     def users(self) -> Counter[str]:
-        """How many parts each kernel has."""
+        """The number of parts of each kernel."""
         return Counter(piece.kernel for piece in self.plan.pieces)
 
     @cached_property
     def records(self) -> Records:
-        """What writes the code that keeps signals."""
+        """The writer of the code that stores signals."""
         return Records(self.text, self.names, self._function, self.plan)
 
     def module(self) -> Any:
-        """The whole module; kernels and what MuJoCo has are only declared."""
+        """The whole module. Kernels and functions of MuJoCo are only declared."""
         self._finite()
         self._bounded()
         self.records.kept()
@@ -63,7 +63,11 @@ class Translation:
     def _function(
         self, name: str, returns: Any, arguments: Mapping[str, str], exported: bool = False, apart: bool = True
     ) -> Writer:
-        """A new function; `apart`: no two of its pointers lead to the same number, MuJoCo's aside."""
+        """A new function.
+
+        Args:
+            apart: Whether its pointers never refer to the same number; those of MuJoCo are excepted.
+        """
         kinds = [_KINDS[kind] for kind in arguments.values()]
         function = ir.Function(self.text, ir.FunctionType(returns, kinds), name)
         self.names[name] = function
@@ -84,7 +88,7 @@ class Translation:
     # --- checks ---
 
     def _finite(self) -> None:
-        """Whether all numbers of a table are finite: 0 times each of them is then 0."""
+        """Emit the test whether all numbers of a table are finite: 0 times each of them is then 0."""
         f = self._function("finite", FLAG, {"table": "pointer", "count": "integer"})
         total = f.builder.alloca(DOUBLE)
         f.builder.store(DOUBLE(0), total)
@@ -113,7 +117,7 @@ class Translation:
         g.builder.ret(found)
 
     def _bounded(self) -> None:
-        """Whether no number of a table is larger than another, of either sign; one that is not finite is."""
+        """Emit the test whether no absolute value in a table exceeds a bound; a number that is not finite does."""
         f = self._function("bounded", FLAG, {"table": "pointer", "count": "integer", "most": "number"})
         b = f.builder
         found = b.alloca(FLAG)
@@ -129,7 +133,9 @@ class Translation:
     # --- parts ---
 
     def _stage(self, f: Writer, index: int, stage: str, scratch: Any, strict: Any) -> None:
-        """Call one function of a part; leave if it raises and that counts, or before what it might never end on."""
+        """Emit a call of one function of a part. It returns early on errors, and before numbers on which the part
+        might never end.
+        """
         piece = self.plan.pieces[index]
         if stage not in piece.stages:
             return
@@ -143,7 +149,7 @@ class Translation:
         f.return_if(f.builder.and_(strict, raised), FLAG(0))
 
     def _own_tables(self, f: Writer, piece: Piece, scratch: Any) -> list[Any]:
-        """Where a part's own numbers are: p, u, x and y."""
+        """Emit the addresses of a part's own numbers: p, u, x and y."""
         return [
             f.place(f.parameters, piece.parameters),
             scratch,
@@ -152,7 +158,7 @@ class Translation:
         ]
 
     def _kernel(self, piece: Piece, stage: str) -> Any:
-        """A kernel's function for one stage: whether it raised."""
+        """The function of a kernel for one stage, which returns whether it raised."""
         name = f"{piece.kernel}.{stage}"
         if name not in self.names:
             names = ("p", "u", "x", "y")
@@ -167,7 +173,7 @@ class Translation:
         return self.names[name]
 
     def _gather(self, f: Writer, index: int) -> Any:
-        """What arrives at a part's inputs, in a table of its own."""
+        """Emit the inputs of a part, in a table of its own."""
         inputs = self.plan.pieces[index].inputs
         with f.builder.goto_entry_block():
             scratch = f.builder.alloca(DOUBLE, size=max(1, len(inputs)))
@@ -176,7 +182,7 @@ class Translation:
         return scratch
 
     def _arriving(self, f: Writer, slot: int) -> Any:
-        """The sum of what arrives at one input."""
+        """Emit the sum of the senders of one input."""
         value = f.load(f.base, slot) if self.plan.constant[slot] else DOUBLE(0)
         for sender, line in self.plan.senders[slot]:
             sent = f.load(f.outputs, sender) if line < 0 else self._delayed(f, line)
@@ -184,7 +190,7 @@ class Translation:
         return value
 
     def _delayed(self, f: Writer, line: int) -> Any:
-        """A signal of the past, between the two nearest steps."""
+        """Emit a past signal, interpolated between the two nearest steps."""
         b = f.builder
         newest = b.sub(f.step, f.load(f.whole, line, INTEGER))
         rest = f.load(f.rest, line)
@@ -201,7 +207,9 @@ class Translation:
     # --- starting ---
 
     def _start(self) -> None:
-        """Start all parts in rounds, so that what goes in circles is read; whether the last round failed."""
+        """Emit the start of all parts, in rounds that resolve circular dependencies. Only failures in the last round
+        count.
+        """
         f = self._function("start", INTEGER, START, exported=True)
         f.arguments["step"] = INTEGER(0)
         for i, (place, _) in enumerate(self.plan.reads):
@@ -216,7 +224,7 @@ class Translation:
         f.builder.ret(INTEGER(COMPLETED))
 
     def _output(self, f: Writer, call: Step) -> None:
-        """One call of a part's `output`, at the start after its `start`; what an early round says ends nothing."""
+        """Emit one call of a part's `output`; at the start, its `start` comes before."""
         b, index = f.builder, call.piece
         with nullcontext() if call.always else b.if_then(f.starting), self._timed(f, index):
             scratch = self._gather(f, index)
@@ -238,7 +246,7 @@ class Translation:
         f.return_if(f.builder.and_(f.strict, wrong), FLAG(0))
 
     def _beginning(self, piece: Piece) -> Any:
-        """How the parts of one kernel begin, up to the first thing that fails; values that a spec gives come last."""
+        """Emit the start of all parts of one kernel, up to the first failure. Values of the spec are set last."""
         name = f"{piece.kernel}.begin"
         if name not in self.names:
             words = {**dict.fromkeys("puxy", "pointer"), **{word: _OUTPUTS[word] for word in _BEGIN}}
@@ -255,7 +263,7 @@ class Translation:
         return self.names[name]
 
     def _fill(self, f: Writer) -> None:
-        """Before the start, a delayed signal was what it is at the start."""
+        """Emit the filling of the delay lines with the signals at the start."""
         b = f.builder
         for line, sender in enumerate(self.plan.lines):
             given = f.load(f.before, line)
@@ -272,7 +280,9 @@ class Translation:
     # --- running ---
 
     def _run(self) -> None:
-        """Steps from `first` on, until `steps` are done or something ends the run in the step `reached`."""
+        """Emit the loop over steps: from `first` until `steps` are done, or something ends the run in the step
+        `reached`.
+        """
         f = self._function("run", INTEGER, RUN, exported=True)
         b = f.builder
         entry, loop, done = b.block, b.append_basic_block("step"), b.append_basic_block("done")
@@ -312,7 +322,7 @@ class Translation:
         self._end_unless(f, b.and_(finite, followed), DIVERGED)
 
     def _look(self, f: Writer, unless: Callable[[Any, int], None]) -> None:
-        """All outputs at the present positions and velocities of MuJoCo."""
+        """Emit the outputs at the present positions and velocities of MuJoCo."""
         b, plan = f.builder, self.plan
         with self._timed(f, "first half"):
             b.call(self._external("mj_step1", NOTHING, [POINTER, POINTER]), [f.model, f.data])
@@ -326,7 +336,7 @@ class Translation:
         unless(self._table_is_finite(f, f.outputs, plan.outputs), SUSPECT)
 
     def _write(self, f: Writer) -> None:
-        """Forces and controls, into MuJoCo."""
+        """Emit the forces and controls for MuJoCo."""
         b, plan = f.builder, self.plan
         for i, (of_outputs, place, sign) in enumerate(plan.writes):
             value = f.load(f.outputs, place) if of_outputs else self._arriving(f, place)
@@ -336,14 +346,14 @@ class Translation:
             b.store(value, f.load(f.ties, len(plan.reads) + i, POINTER))
 
     def _carried_on(self, f: Writer, number: int, value: Any) -> Any:
-        """A value that is written, carried on to the middle of the step; before the first step it was the same."""
+        """Emit a written value, extrapolated to the middle of the step. In the first step it is constant."""
         b, before = f.builder, f.load(f.written, number)
         f.store(value, f.written, number)
         carried = b.fsub(b.fmul(DOUBLE(1.5), value), b.fmul(DOUBLE(0.5), before))
         return b.select(b.fcmp_unordered("uno", before, before), value, carried)
 
     def _advance(self, f: Writer) -> None:
-        """The second half of MuJoCo's step."""
+        """Emit the second half of MuJoCo's step."""
         if self.plan.guards:
             self._end_unless(f, Events(self).advance(f), SUSPECT)
             return
@@ -366,7 +376,11 @@ class Translation:
     def _chunks(
         self, name: str, calls: Sequence[Any], words: Mapping[str, str], write: Callable[[Writer, Any], None]
     ) -> Iterator[Any]:
-        """Functions that make calls in order, a number of them each: whether all is well."""
+        """Functions that make calls in order, a fixed number of calls each.
+
+        Yields:
+            The flag of success of each function.
+        """
         for number, begin in enumerate(range(0, len(calls), _CHUNK)):
             chunk = f"{name}.{number}"
             if chunk not in self.names:
@@ -381,5 +395,5 @@ class Translation:
             self._stage(f, index, "update", self._gather(f, index), FLAG(1))
 
     def _timed(self, f: Writer, what: int | str) -> AbstractContextManager[None]:  # noqa: ARG002
-        """Around the code of a part or of a named thing: `stopwatch` counts there how long it takes."""
+        """Around the code of a part or of a named section: `stopwatch` measures its time there."""
         return nullcontext()

@@ -1,8 +1,8 @@
-"""Makes the native code of a plan, and its kernels on all cores, or takes them from the cache.
+"""Makes the native code of a plan, and its kernels on all cores, or reads them from the cache.
 
-Helpers are processes of their own: numba compiles one thing at a time, and a script of a user's need not be
-importable, as it would have to be for `multiprocessing`. The cache is all that they share: each begins at
-another place of the same list, and goes round past what is there by then.
+Helpers are separate processes, because numba compiles one function at a time and a user's script need not be
+importable, as `multiprocessing` requires. They share nothing but the cache. Each begins at another place of the same
+list and skips what is in the cache by then.
 """
 
 from __future__ import annotations
@@ -29,10 +29,15 @@ _WORTH_A_HELPER = 4
 
 
 def compiled(plan: Plan, kernels: Mapping[str, Kernel], timed: bool = False) -> machine.Code:
-    """The machine code of a plan, with functions `start` and `run`;
+    """Make the machine code of a plan.
 
     Args:
-        timed: With a stopwatch for each part.
+        plan: The plan.
+        kernels: The kernels by name.
+        timed: Whether to add a stopwatch for each part.
+
+    Returns:
+        Machine code with the functions `start` and `run`.
 
     Raises:
         InvalidComponent: A kernel cannot become native code.
@@ -55,7 +60,7 @@ def compiled(plan: Plan, kernels: Mapping[str, Kernel], timed: bool = False) -> 
 
 
 def bitcode_of(kernels: Sequence[Kernel]) -> list[bytes]:
-    """The code of each kernel, compiled where it is missing.
+    """The bitcode of each kernel; what is missing in the cache is compiled.
 
     Raises:
         InvalidComponent: A kernel cannot become native code.
@@ -72,7 +77,7 @@ def bitcode_of(kernels: Sequence[Kernel]) -> list[bytes]:
 
 
 def _helpers(missing: Sequence[Kernel]) -> list[subprocess.Popen[bytes]]:
-    """A process for each further core that has enough to do; none where no process can be started."""
+    """Start a process for each further core that has enough to do; none if no process can be started."""
     count = min(_cores(), len(missing) // _WORTH_A_HELPER + 1)
     started: list[subprocess.Popen[bytes]] = []
     with contextlib.suppress(OSError):
@@ -82,7 +87,7 @@ def _helpers(missing: Sequence[Kernel]) -> list[subprocess.Popen[bytes]]:
 
 
 def _places(length: int, count: int) -> list[int]:
-    """Where in a list each helper begins; this process begins at its front."""
+    """The index in the list at which each helper begins. This process begins at index 0."""
     return [length * number // count for number in range(1, count)]
 
 
@@ -91,10 +96,10 @@ def _cores() -> int:
 
 
 def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
-    """A process that compiles kernels.
+    """Start a process that compiles kernels.
 
     Raises:
-        OSError: The file cannot be read or written.
+        OSError: The process cannot be started.
     """
     components = [kernel.component for kernel in kernels]
     files = [(_texts(found), [_texts(file) for file in found.shared]) for found in components]
@@ -109,13 +114,13 @@ def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
 
 
 def _texts(file: Primitive | Shared) -> tuple[str, str, str, str]:
-    """A file as text: its reference or name, its path, how errors name it, its content."""
+    """A file as text: reference or name, path, name in messages, and content."""
     name = file.reference if isinstance(file, Primitive) else file.name
     return name, str(file.path), file.shown, file.text
 
 
 def _compile(files: Sequence[tuple[Sequence[str], Sequence[Sequence[str]]]]) -> None:
-    """Compile each component that no other process has compiled by then."""
+    """Compile each component that is not in the cache yet."""
     from gaitsim.components.load import load_primitive
 
     for (reference, path, shown, text), others in files:

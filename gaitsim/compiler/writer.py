@@ -1,4 +1,4 @@
-"""Native functions while they are written in LLVM's language: numbers in tables, loops, early returns."""
+"""A writer of functions in LLVM IR: numbers in tables, loops, early returns."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ DOUBLE, POINTER, NOTHING = ir.DoubleType(), ir.PointerType(), ir.VoidType()
 
 @dataclass
 class Writer:
-    """One function: where its next instruction goes, and its arguments by name."""
+    """One function: the position of its next instruction, and its arguments by name."""
 
     builder: Any
     arguments: dict[str, Any]
@@ -24,16 +24,16 @@ class Writer:
         return self.arguments[name]
 
     def place(self, table: Any, place: Any, kind: Any = DOUBLE) -> Any:
-        """The address of a table's number."""
+        """The address of a number in a table."""
         index = place if isinstance(place, ir.Value) else INTEGER(place)
         return self.builder.gep(table, [index], inbounds=True, source_etype=kind)
 
     def load(self, table: Any, place: Any, kind: Any = DOUBLE) -> Any:
-        """A table's number."""
+        """A number of a table."""
         return self.builder.load(self.place(table, place, kind), typ=kind)
 
     def store(self, value: Any, table: Any, place: Any) -> None:
-        """Set a table's number."""
+        """Set a number of a table."""
         self.builder.store(value, self.place(table, place))
 
     @contextmanager
@@ -52,6 +52,6 @@ class Writer:
         b.position_at_end(done)
 
     def return_if(self, flag: Any, value: Any) -> None:
-        """Leave the function early; seldom."""
+        """Return from the function if a flag is set, which is unlikely."""
         with self.builder.if_then(flag, likely=False):
             self.builder.ret(value)

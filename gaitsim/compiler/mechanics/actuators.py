@@ -13,16 +13,21 @@ from gaitsim.compiler.mechanics.ties import Element
 
 
 class Actuators(Making):
-    """Verbs that make a control a force."""
+    """Verbs that turn a control into a force."""
 
     def motor(
         self, element: Element, suffix: str = "motor", gain: Vector = (1, 0), limits: Vector | None = None
     ) -> Element:
-        """An actuator along a tendon (positive lengthens) or at a joint.
+        """Add an actuator along a tendon, where a positive force lengthens it, or at a joint.
 
-        Its force is control * (gain[0] + gain[1] * velocity), kept within limits. The part with the
-        velocity is solved for the velocity at the end of the step, so that a strong damper on a
-        light segment stays a damper.
+        The force is control * (gain[0] + gain[1] * velocity), within the limits. MuJoCo solves the part with the
+        velocity for the end of the step, so that a strong damper on a light segment is stable.
+
+        Args:
+            element: The tendon or the joint.
+            suffix: The end of the actuator's name.
+            gain: Constant and factor of the velocity.
+            limits: Smallest and largest force in N or N m.
         """
         name = self._name(suffix)
         transmission = {
@@ -43,11 +48,20 @@ class Actuators(Making):
         gain: Vector = (1, 0),
         limits: Vector | None = None,
     ) -> Element:
-        """An actuator on a place along an axis of the world, or of the ground that an inner part makes.
+        """Add an actuator on a place, along an axis of the world or of the ground that an inner part makes.
 
-        Its actuator_length is the place's coordinate on that axis, its actuator_velocity the rate. With
-        `reach` the force acts that far from the place, in m along the same axes: at the lowest point of a
-        sphere, say; the velocity is then the one there, the length of no use. For gain and limits see `motor`.
+        Its actuator_length is the coordinate of the place on that axis, its actuator_velocity the rate of it. With
+        `reach`, the force acts at that distance from the place, such as at the lowest point of a sphere. The velocity
+        is then the one there, and the length has no use.
+
+        Args:
+            place: The place.
+            axis: The direction.
+            suffix: The end of the actuator's name.
+            surface: The inner part that makes the ground; empty for the axes of the world.
+            reach: The distance of the force from the place along the same axes, in m.
+            gain: See `motor`.
+            limits: See `motor`.
         """
         self.made.pushed.setdefault(self.index, []).append(axis)
         name, ground = self._name(suffix), self._name(f"{surface}.surface") if surface else "world.origin"
@@ -68,7 +82,7 @@ class Actuators(Making):
 
 
 def _drive(actuator: Any, gain: Vector, limits: Vector | None) -> None:
-    """Set how an actuator's force follows from its control; see `Actuators.motor`."""
+    """Set how the force of an actuator follows from its control; see `Actuators.motor`."""
     actuator.set_to_motor()
     if gain[1]:
         actuator.gaintype = mujoco.mjtGain.mjGAIN_AFFINE

@@ -7,15 +7,21 @@ from gaitsim.compiler.mechanics.places import Point, Vector
 
 
 class Bodies(Making):
-    """Verbs that shape the part's own body."""
+    """Verbs for the part's own body."""
 
     def body(self, mass: float, center_of_mass: Vector, inertia: Vector) -> None:
-        """Mass in kg, center of mass in m, principal moments of inertia there in kg m^2."""
+        """Set the mass properties of the body.
+
+        Args:
+            mass: In kg.
+            center_of_mass: In m.
+            inertia: Principal moments of inertia about the center of mass, in kg m^2.
+        """
         self.own_body.mass = float(mass)
         self.own_body.ipos = self._mirrored(center_of_mass)
         self.own_body.inertia = [float(i) for i in inertia]
         self.own_body.explicitinertial = True
 
     def frame(self, name: str, position: Vector) -> None:
-        """Where a declared frame lies on the part's own body, in m."""
+        """Set the position of a declared frame on the body, in m."""
         self.frames.places[self._name(name)] = Point(self.own_body, self._mirrored(position))

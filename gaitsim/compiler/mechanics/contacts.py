@@ -1,4 +1,4 @@
-"""Contacts: the ground, and what it carries."""
+"""Contacts: the ground, and bodies that it carries."""
 
 from __future__ import annotations
 
@@ -13,21 +13,35 @@ from gaitsim.compiler.mechanics.ties import Element
 
 
 class Contacts(Sensors):
-    """Verbs that make the ground, and keep bodies out of it."""
+    """Verbs for the ground and for contacts with it."""
 
     def ground(self, angle: float = 0.0, edges: Sequence[tuple[float, float]] = (), across: float = 0.0) -> None:
-        """The ground of the whole model: it rises forwards by an angle (rad) and has steps at its edges.
+        """Make the ground of the whole model.
 
-        It may rise to the left as well, by an angle `across` about the way forwards along it. An edge is a position
-        along the ground and the height behind it, in m. `push` and `position_of` of the part around this one
-        count from it if they are given this one's name.
+        `push` and `position_of` of the part around this one count from this ground if they name this part.
+
+        Args:
+            angle: The slope forwards, in rad.
+            edges: Steps: positions along the ground and the heights behind them, in m.
+            across: The slope to the left, in rad, about the direction forwards along the ground.
         """
         self.made.across = self.made.across or across != 0
         add_surface(self.spec, self._name("surface"), angle, across, self._info)
         add_ground(self.spec, angle, across, edges, self._info)
 
     def collide(self, place: Point, radius: float, friction: float, solref: Vector, solimp: Vector) -> Element:
-        """A sphere that MuJoCo keeps out of the ground; gives a sensor of its force on the ground, in N."""
+        """Add a sphere that MuJoCo keeps above the ground.
+
+        Args:
+            place: Its center.
+            radius: In m.
+            friction: The coefficient of friction.
+            solref: MuJoCo's solref.
+            solimp: MuJoCo's solimp.
+
+        Returns:
+            The sensor of its force on the ground, in N.
+        """
         # With the pyramidal cone the depth at rest would depend on friction: 1.6 to 100 mm for 0.5 to 2.
         self.spec.option.cone = mujoco.mjtCone.mjCONE_ELLIPTIC
         self.made.collided.append(self.index)
@@ -52,6 +66,6 @@ class Contacts(Sensors):
         return sensor
 
     def touches(self, place: Point, radius: float = 0.0) -> None:
-        """Tell that the ground carries the body here: a point, or a sphere of a radius in m."""
+        """Declare that the ground carries the body at a point, or at a sphere with a radius in m."""
         self.made.touching.append(Touching(place.body.name, place.position, float(radius)))
         self.made.carried[self.index] = place.body.name

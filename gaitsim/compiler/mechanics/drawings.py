@@ -1,4 +1,4 @@
-"""Drawings: what is only to be looked at."""
+"""Drawings, which only films show."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from gaitsim.errors import did_you_mean
 
 
 class Drawings(Making):
-    """Verbs that draw; none changes the mechanics."""
+    """Verbs that draw. None changes the mechanics."""
 
     def draw_sphere(self, position: Vector, radius: float) -> None:
-        """A massless sphere to look at."""
+        """Draw a sphere without mass."""
         self._draw(type=mujoco.mjtGeom.mjGEOM_SPHERE, pos=self._mirrored(position), size=[float(radius), 0, 0])
 
     def draw_rod(self, start: Vector, end: Vector, radius: float) -> None:
-        """A massless capsule to look at."""
+        """Draw a capsule without mass."""
         ends = [*self._mirrored(start), *self._mirrored(end)]
         self._draw(type=mujoco.mjtGeom.mjGEOM_CAPSULE, fromto=ends, size=[float(radius), 0, 0])
 
     def draw_line(self, points: Sequence[Point | Moved], radius: float) -> None:
-        """A line to look at where there is no body, such as a massless leg; radius in m."""
+        """Draw a line where there is no body, such as a massless leg; radius in m."""
         moved = tuple(place if isinstance(place, Moved) else Moved(place) for place in points)
         for way in (way for place in moved for way in (place.forward, place.up) if way is not None):
             self._check_output("draw_line", way[0])
@@ -34,7 +34,7 @@ class Drawings(Making):
     def moved(
         self, place: Point, forward: tuple[str, float] | None = None, up: tuple[str, float] | None = None
     ) -> Moved:
-        """For `draw_line`: a place moved in the world by outputs in m, such as up=("length", -0.5)."""
+        """A place for `draw_line` that outputs in m move in the world, such as up=("length", -0.5)."""
         return Moved(place, forward, up)
 
     def draw_force(
@@ -45,7 +45,15 @@ class Drawings(Making):
         surface: str = "",
         left: str | None = None,
     ) -> None:
-        """An arrow to look at: the force on a place, from outputs in N along axes as `push` has them."""
+        """Draw the force on a place as an arrow.
+
+        Args:
+            place: The place.
+            up: The output with the upward component, in N.
+            forward: The output with the forward component, in N.
+            surface: The inner part whose ground gives the axes, as for `push`.
+            left: The output with the component to the left, in N.
+        """
         for port in (port for port in (up, forward, left) if port is not None):
             self._check_output("draw_force", port)
         site = self._name(f"{surface}.surface") if surface else ""

@@ -1,4 +1,4 @@
-"""The ground as MuJoCo knows it: a plane through the world's origin, or boxes side by side for steps."""
+"""The ground in MuJoCo: a plane through the origin of the world, or boxes side by side for steps."""
 
 from __future__ import annotations
 
@@ -15,19 +15,23 @@ _THICK = 1.0  # m
 
 
 def add_surface(spec: Any, name: str, angle: float, across: float, info: str) -> None:
-    """A site whose x axis runs along ground that rises forwards by an angle, and whose z axis is its normal.
+    """Add a site for sloping ground. Its x axis points forwards along the ground, its z axis is the normal.
 
     Args:
-        across: By how much the ground rises to the left, about that x axis.
+        spec: MuJoCo's mjSpec.
+        name: The name of the site.
+        angle: The slope forwards, in rad.
+        across: The slope to the left about the x axis, in rad.
+        info: The place in the spec, for MuJoCo's messages.
     """
     spec.worldbody.add_site(name=name, quat=_tilt(angle, across), size=[0.005] * 3, info=info)
 
 
 def add_ground(spec: Any, angle: float, across: float, edges: Sequence[tuple[float, float]], info: str) -> None:
-    """Geoms that `Mechanics.collide` keeps spheres out of; a second part may ask for the same ground.
+    """Add the geoms that spheres of `Mechanics.collide` rest on. A second part may ask for the same ground.
 
     Raises:
-        ValueError: The ground is another already.
+        ValueError: There is another ground already.
     """
     # At an edge without a height a sphere would touch two boxes, and so be held twice.
     level = all(height == 0 for _, height in edges)
@@ -48,7 +52,7 @@ def _plane(angle: float, across: float) -> dict[str, Any]:
 
 
 def _treads(angle: float, edges: Sequence[tuple[float, float]]) -> list[dict[str, Any]]:
-    """A box for each tread: before the first edge at height 0, behind each edge at the height given with it."""
+    """A box for each tread: at height 0 before the first edge, and at the given height behind each edge."""
     begins = [-_FAR, *(position for position, _ in edges)]
     ends = [*(position for position, _ in edges), _FAR]
     heights = [0.0, *(height for _, height in edges)]

@@ -1,4 +1,4 @@
-"""Joints: how a body moves on the one that carries it."""
+"""Joints: how a body moves relative to the one that carries it."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from gaitsim.compiler.mechanics.ties import Element
 
 
 class Joints(Making):
-    """Verbs that let the child of the part move, and say where it begins."""
+    """Verbs for the motion of the part's child, and for its start."""
 
     def slide(self, axis: Vector, suffix: str = "", damping: float = 0.0, armature: float = 0.0) -> Element:
-        """A translation of the child along an axis; damping in N s/m, armature (kg) as of `hinge`."""
+        """Add a translation of the child along an axis; damping in N s/m, armature in kg as for `hinge`."""
         joint = self._joint(mujoco.mjtJoint.mjJNT_SLIDE, self._mirrored(axis), suffix, damping)
         self.spec.joint(joint.name).armature = float(armature)
         return joint
@@ -30,11 +30,15 @@ class Joints(Making):
         neutral: float = 0.0,
         armature: float = 0.0,
     ) -> Element:
-        """A rotation of the child about an axis; damping in N m s/rad.
+        """Add a rotation of the child about an axis.
 
-        Its coordinate is `neutral` (rad) where the frames are aligned. Limits in rad are told to
-        whoever plots the joint; what happens there is the part's own. The armature (kg m^2) is
-        inertia of this coordinate alone, such as that of a drive's rotor.
+        Args:
+            axis: The axis.
+            suffix: The end of the joint's name.
+            damping: In N m s/rad.
+            limits: The range in rad, for plots only; forces at its ends are up to the part.
+            neutral: The coordinate in rad at which the frames are aligned.
+            armature: Inertia of this coordinate alone in kg m^2, such as that of a motor's rotor.
         """
         x, y, z = (float(v) for v in axis)
         # An axis is a pseudovector: mirrored in y, its x and z turn round and its y stays.
@@ -47,11 +51,11 @@ class Joints(Making):
         return joint
 
     def begins_at(self, joint: Element, position: float, velocity: float) -> None:
-        """Let a joint begin at a coordinate and a velocity of its own, in SI, unless `initial:` sets them."""
+        """Set the coordinate and velocity with which a joint starts, in SI, unless `initial:` sets them."""
         self.made.begins.append((joint.name, float(position), float(velocity)))
 
     def stands_on(self, lift: Element) -> None:
-        """Let this vertical joint put the lowest place that touches on the ground, unless `initial:` sets it."""
+        """Let this vertical joint start with the lowest contact on the ground, unless `initial:` sets it."""
         self.made.lifts.append(lift.name)
 
     def _joint(self, kind: Any, axis: Vector, suffix: str, damping: float) -> Element:

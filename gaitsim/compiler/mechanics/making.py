@@ -1,4 +1,4 @@
-"""What all verbs of mechanics share: whose elements they make, and where what they make is gathered."""
+"""What all verbs of mechanics share: the part that they work for, and the collected results."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gaitsim.model import Part
 
 @dataclass
 class Made:
-    """What the parts of a model make beside MuJoCo's elements; ties and drawings with the index of their part."""
+    """What parts make besides MuJoCo's elements. Ties and drawings have the index of their part."""
 
     reads: list[tuple[int, Tie]] = field(default_factory=list)
     applies: list[tuple[int, Tie]] = field(default_factory=list)
@@ -31,10 +31,10 @@ class Made:
 
 @dataclass
 class Making:
-    """One part at work: everything it makes bears its address and its place in the spec.
+    """The verbs of one part. The elements have the address of the part and its place in the spec.
 
-    Positions are in the frame of the part's own body: x forwards, y to the left, z up. What is
-    written for the right side is mirrored in y for the left.
+    Positions are in the frame of the part's own body: x forwards, y to the left, z up. Values for the right side are
+    mirrored in y for the left side.
     """
 
     spec: Any
@@ -58,7 +58,7 @@ class Making:
         return (x, -y if self.part.mirrored else y, z)
 
     def attached(self, name: str, offset: Vector = (0, 0, 0)) -> Point:
-        """The place of one of the part's attachments, moved by an offset in m."""
+        """The place of an attachment of the part, with an offset in m."""
         at = self.frames.point(self.part.attachments[name], self.beside.get(name, (0, 0, 0)))
         return Point(at.body, _sum(at.position, self._mirrored(offset)))
 

@@ -14,10 +14,10 @@ from gaitsim.compiler.mechanics.ties import Element
 
 
 class Paths(Making):
-    """Verbs that lay tendons, and hold two equally long."""
+    """Verbs for tendons."""
 
     def tendon(self, places: Sequence[Point | Wrap], suffix: str = "") -> Element:
-        """A tendon through points and around cylinders, straight between them."""
+        """Add a tendon through points and around cylinders, straight between them."""
         tendon = self.spec.add_tendon(name=self._name(suffix), info=self._info)
         for i, place in enumerate(places):
             if isinstance(place, Wrap):
@@ -27,11 +27,18 @@ class Paths(Making):
         return Element("tendon", self._name(suffix))
 
     def tendon_between(self, first: str, second: str) -> Element:
-        """A straight tendon between two of the part's attachments."""
+        """Add a straight tendon between two attachments of the part."""
         return self.tendon([self.attached(name) for name in (first, second)])
 
     def cylinder(self, center: Point, radius: float, side: Point, axis: Vector = (0, 1, 0)) -> Wrap:
-        """A massless cylinder for tendons to bend around, at the side of a place; radius in m."""
+        """Add a massless cylinder around which tendons wrap.
+
+        Args:
+            center: Its center.
+            radius: In m.
+            side: The place on whose side tendons pass.
+            axis: Its axis.
+        """
         geom = self._name("cylinder")
         quat = np.zeros(4)
         mujoco.mju_quatZ2Vec(quat, np.array(axis, dtype=np.float64))
@@ -46,7 +53,7 @@ class Paths(Making):
         return Wrap(geom, self._site("side", side))
 
     def equal_lengths(self, first: Element, second: Element, time_constant: float, impedance: float) -> None:
-        """Keep two tendons equally long: one row of MuJoCo's equality constraints, critically damped."""
+        """Keep two tendons equally long, by one critically damped equality constraint of MuJoCo."""
         equality = self.spec.add_equality(
             name=self._name("equality"),
             type=mujoco.mjtEq.mjEQ_TENDON,

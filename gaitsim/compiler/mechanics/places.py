@@ -1,4 +1,4 @@
-"""Places on bodies of the MuJoCo model, and what is drawn there beside the bodies."""
+"""Places on bodies of the MuJoCo model, and drawings at them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ Vector = Sequence[float]
 
 @dataclass(frozen=True)
 class Point:
-    """A place on a body of the MuJoCo model, for `mj.tendon` and the like."""
+    """A place on a body of the MuJoCo model, for verbs such as `mj.tendon`."""
 
     body: Any
     position: tuple[float, float, float]
@@ -21,7 +21,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Wrap:
-    """A cylinder that a path bends around, on the side of a site; made by `mj.cylinder`."""
+    """A cylinder around which a path wraps, on the side of a site; made by `mj.cylinder`."""
 
     geom: str
     side: str
@@ -29,7 +29,7 @@ class Wrap:
 
 @dataclass(frozen=True)
 class Touching:
-    """A place on a named body that the ground carries: a point, or a sphere of a radius in m."""
+    """A place on a named body that the ground carries: a point, or a sphere with a radius in m."""
 
     body: str
     position: tuple[float, float, float]
@@ -38,10 +38,7 @@ class Touching:
 
 @dataclass(frozen=True)
 class Moved:
-    """A place that outputs move away from itself in the world: forwards and upwards, in m.
-
-    Each way is an output and a factor.
-    """
+    """A place that outputs move forwards and upwards in the world, in m. Each direction has an output and a factor."""
 
     place: Point
     forward: tuple[str, float] | None = None
@@ -50,7 +47,7 @@ class Moved:
 
 @dataclass(frozen=True)
 class DrawnLine:
-    """A line to look at through places that outputs may move; radius in m."""
+    """A drawn line through places that outputs may move; radius in m."""
 
     points: tuple[Moved, ...]
     radius: float
@@ -58,10 +55,10 @@ class DrawnLine:
 
 @dataclass(frozen=True)
 class DrawnForce:
-    """An arrow to look at: the force on a place, given by outputs in N, forwards, upwards and to the left.
+    """A drawn arrow: the force on a place, from outputs in N forwards, upwards and to the left.
 
     Attributes:
-        surface: The site whose axes these are; empty for those of the world.
+        surface: The site whose axes are used; empty for the axes of the world.
     """
 
     place: Point
@@ -73,7 +70,7 @@ class DrawnForce:
 
 @dataclass
 class Frames:
-    """Where every frame of the model lies: its body and its position there."""
+    """The body and the position of every frame of the model."""
 
     places: dict[str, Point] = field(default_factory=dict)
 
@@ -84,5 +81,5 @@ class Frames:
 
 
 def world_frames(spec: Any) -> Frames:
-    """The frames that are there before any part: the ground."""
+    """The frames of the world: the ground."""
     return Frames({WORLD: Point(spec.worldbody, (0.0, 0.0, 0.0))})

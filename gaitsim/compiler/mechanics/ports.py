@@ -1,4 +1,4 @@
-"""Ports: which numbers of MuJoCo an output is, and where an input is written to."""
+"""Ports: outputs that read numbers of MuJoCo, and inputs that are written to MuJoCo."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ from gaitsim.compiler.mechanics.ties import Element, Tie, tied
 
 
 class Ports(Making):
-    """Verbs that tie ports to numbers of MuJoCo's data."""
+    """Verbs that connect ports with numbers of MuJoCo's data."""
 
     def read(self, port: str, element: Element, field_name: str, index: int = 0) -> None:
         """Let an output be a number of MuJoCo's data: qpos, ten_length, actuator_velocity, sensordata ..."""
         self.made.reads.append((self.index, tied(port, element, field_name, index)))
 
     def read_energy(self, potential: str, kinetic: str) -> None:
-        """Let two outputs be MuJoCo's potential and kinetic energy."""
+        """Let two outputs be MuJoCo's potential and kinetic energy, in J."""
         self.spec.option.enableflags |= mujoco.mjtEnableBit.mjENBL_ENERGY
         ties = (Tie(potential, None, "energy", 0), Tie(kinetic, None, "energy", 1))
         self.made.reads += [(self.index, tie) for tie in ties]
 
     def read_weight(self, port: str) -> None:
-        """Let an output be the weight of everything that moves, in N."""
+        """Let an output be the weight of all moving bodies, in N."""
         self._read_constant(port, lambda model: -float(model.opt.gravity[2] * model.body_subtreemass[0]))
 
     def read_key(self, port: str) -> None:
-        """Let an output be a whole number below 2^32 that this part's address gives.
+        """Let an output be an integer below 2^32 that follows from the part's address.
 
-        Two parts with one seed draw different numbers if they are keyed by it.
+        Two parts with the same seed draw different random numbers if they use it as a key.
         """
         key = float(zlib.crc32(self.part.address.encode()))
         self._read_constant(port, lambda model: key)
@@ -48,7 +48,7 @@ class Ports(Making):
         self.made.applies.append((self.index, tied(port, element, field_name, 0, sign)))
 
     def reset(self, port: str, when: str, joint: Element, field_name: str) -> None:
-        """At an event at which the port `when` is 1, set a joint's qpos or qvel to an input or output."""
+        """Set qpos or qvel of a joint to an input or output, at events at which the port `when` is 1."""
         made = tied(port, joint, field_name, 0)
         if field_name not in ("qpos", "qvel"):
             raise ValueError(f"an event sets no {field_name}; name qpos or qvel of a joint")

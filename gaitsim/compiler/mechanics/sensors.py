@@ -1,4 +1,4 @@
-"""Sensors: where bodies and the center of mass are, and how they move."""
+"""Sensors of places and of the center of mass."""
 
 from __future__ import annotations
 
@@ -12,10 +12,12 @@ from gaitsim.compiler.mechanics.ties import Element
 
 
 class Sensors(Making):
-    """Verbs that make MuJoCo measure something."""
+    """Verbs that let MuJoCo measure."""
 
     def position_of(self, place: Point, surface: str = "", suffix: str = "position") -> Element:
-        """A sensor of where a place is in the world, or on the ground of an inner part: three numbers, in m."""
+        """Add a sensor of the position of a place in the world, or relative to the ground of an inner part: three
+        numbers in m.
+        """
         sensor = self._sensor(suffix, mujoco.mjtSensor.mjSENS_FRAMEPOS, self._site(f"{suffix}.origin", place))
         if surface:
             made = self.spec.sensor(sensor.name)
@@ -27,13 +29,15 @@ class Sensors(Making):
         return self._sensor("velocity", mujoco.mjtSensor.mjSENS_FRAMELINVEL, self._site("velocity.origin", place))
 
     def orientation_of(self, place: Point) -> tuple[Element, Element]:
-        """Sensors of a place's own z axis in the world, and of its angular velocity there in rad/s."""
+        """Add sensors of the z axis of a place in the world, and of its angular velocity in rad/s."""
         site = self._site("axis", place)
         axis = self._sensor("direction", mujoco.mjtSensor.mjSENS_FRAMEZAXIS, site)
         return axis, self._sensor("angular_velocity", mujoco.mjtSensor.mjSENS_FRAMEANGVEL, site)
 
     def axes_of(self, place: Point) -> tuple[Element, Element, Element, Element]:
-        """Sensors of a place's own x, y and z axes in the world, and of its angular velocity about them in rad/s."""
+        """Add sensors of the x, y and z axes of a place in the world, and of its angular velocity about them in
+        rad/s.
+        """
         site = self._site("axes", place)
         kinds = (
             mujoco.mjtSensor.mjSENS_FRAMEXAXIS,
@@ -44,7 +48,7 @@ class Sensors(Making):
         return x, y, z, self._sensor("gyroscope", mujoco.mjtSensor.mjSENS_GYRO, site)
 
     def center_of_mass(self) -> tuple[Element, Element]:
-        """Sensors of where the center of mass of all that moves is, in m, and of its velocity."""
+        """Add sensors of the position of the whole model's center of mass in m, and of its velocity in m/s."""
         body = mujoco.mjtObj.mjOBJ_BODY
         position = self._sensor("position", mujoco.mjtSensor.mjSENS_SUBTREECOM, "world", body)
         return position, self._sensor("velocity", mujoco.mjtSensor.mjSENS_SUBTREELINVEL, "world", body)

@@ -1,4 +1,4 @@
-"""What is right in the sagittal plane only, and what is right on one side only, in a model that moves in space."""
+"""Checks of models in space: parts that are valid in the sagittal plane only, and parts on one side only."""
 
 from __future__ import annotations
 
@@ -15,10 +15,10 @@ _STRAIGHT = 1e-6  # of an axis of length 1, out of the plane or out of the way a
 
 
 def check_friction(model: Model, spec: Any, made: Made) -> None:
-    """Whether the contacts of bodies that can move sideways have friction there.
+    """Check that contacts of bodies that can move sideways have friction sideways.
 
     Raises:
-        InvalidSpec: Each that pushes forwards along the ground and never sideways.
+        InvalidSpec: A contact has friction along the direction forwards only.
     """
     faults = Faults()
     for index, body in made.carried.items():
@@ -34,10 +34,11 @@ def check_friction(model: Model, spec: Any, made: Made) -> None:
 
 
 def check_slopes(model: Model, made: Made) -> None:
-    """Whether spheres of MuJoCo are on ground that rises straight ahead, along which alone their forces are told.
+    """Check that the spheres of MuJoCo are on ground that rises straight ahead, because their forces are reported
+    along it.
 
     Raises:
-        InvalidSpec: Each that is not.
+        InvalidSpec: The ground of a sphere also rises to the side.
     """
     faults = Faults()
     for part in (model.parts[index] for index in made.collided if made.across):
@@ -47,10 +48,10 @@ def check_slopes(model: Model, made: Made) -> None:
 
 
 def check_sides(model: Model, values: Sequence[float]) -> None:
-    """Whether what lies on a mirrored segment, beside its middle, is mirrored as well.
+    """Check that parts beside the middle of a mirrored segment are mirrored too.
 
     Raises:
-        InvalidSpec: Each part that is not.
+        InvalidSpec: A part is not.
     """
     faults = Faults()
     mirrored = {part.address for part in model.parts if part.mirrored and part.type.frames}

@@ -1,4 +1,4 @@
-"""Ports tied to numbers of MuJoCo's data."""
+"""Ports that are tied to numbers of MuJoCo's data."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ _FIELDS = {
 
 @dataclass(frozen=True)
 class Tie:
-    """A port tied to one number of MuJoCo's data, such as qpos of a joint.
+    """A port that is tied to one number of MuJoCo's data, such as qpos of a joint.
 
     Attributes:
-        when: Of what is written at events only, the port that is 1 at those that set it.
+        when: For a number that is written at events, the port that is 1 at these events.
     """
 
     port: str
@@ -41,10 +41,10 @@ class Tie:
 
 
 def tied(port: str, element: Element, field_name: str, index: int, sign: float = 1.0) -> Tie:
-    """A port tied to a number that such an element has.
+    """Tie a port to a number of an element.
 
     Raises:
-        ValueError: The expression has no value.
+        ValueError: The element has no such number.
     """
     known = _FIELDS.get(element.kind, ())
     if field_name not in known:

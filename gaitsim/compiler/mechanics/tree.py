@@ -1,4 +1,4 @@
-"""The tree of bodies: which segment is carried by which joints, from the ground upwards."""
+"""The tree of bodies: which joints carry which segment, from the ground upwards."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ class Branch:
 
 
 def branches(model: Model, values: Sequence[float]) -> list[Branch]:
-    """All segments in an order in which each comes after the one that carries it.
+    """All segments, each after the one that carries it.
 
     Raises:
-        InvalidSpec: A segment without a joint, with joints at different places, or in a ring.
+        InvalidSpec: A segment has no joint, joints at different places, or is part of a ring.
     """
     faults = Faults()
     segments = {part.address: part for part in model.parts if part.type.frames}
@@ -75,10 +75,10 @@ def _ordered(segments: dict[str, Part], carried: dict[str, list[Part]]) -> list[
 
 
 def check_axes(branch: Branch, body: Any) -> None:
-    """Whether the hinges of a body turn it in as many ways as there are hinges, and its slides likewise.
+    """Check that the axes of a body's hinges are independent, and the axes of its slides too.
 
     Raises:
-        InvalidSpec: At the first joint that adds no way of its own.
+        InvalidSpec: A joint adds no new direction.
     """
     parts = {joint.address: joint for joint in branch.joints}
     for kind, does in ((mujoco.mjtJoint.mjJNT_HINGE, "turn"), (mujoco.mjtJoint.mjJNT_SLIDE, "move")):
@@ -99,12 +99,12 @@ def check_axes(branch: Branch, body: Any) -> None:
 
 
 def _owner(frame: str, segments: dict[str, Part]) -> str:
-    """The segment that a frame, or a body, is of."""
+    """The segment that a frame or a body belongs to."""
     return frame if frame == WORLD or frame in segments else frame.rpartition(".")[0]
 
 
 def _ends(joint: Part, values: Sequence[float]) -> list[tuple[str, tuple[float, ...]]]:
-    """Frame and place beside it of a joint's two ends."""
+    """The frame and the place beside it, for both ends of a joint."""
     ends = []
     for name in ("parent", "child"):
         places = joint.places.get(name, ())

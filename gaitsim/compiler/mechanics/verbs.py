@@ -1,4 +1,4 @@
-"""What a component's `build(p, mj)` works on: all verbs, each in the file of what it makes."""
+"""The object `mj` of `build(p, mj)`: all verbs of mechanics."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def numbers_of(part: Part, values: Sequence[float], frames: Frames) -> SimpleNam
 
 
 def beside_frames(part: Part, values: Sequence[float]) -> dict[str, Vector]:
-    """How far each of a part's attachments is from its frame, in m; those that are on it are left out."""
+    """The offset of each attachment from its frame, in m. Attachments without an offset are left out."""
     return {
         name: _mirrored_point([values[i] for i in places[0].at], part.mirrored) for name, places in part.places.items()
     }
