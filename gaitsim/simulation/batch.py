@@ -1,4 +1,4 @@
-"""Several models at once: each in a thread of its own, since native code holds no lock."""
+"""Simulations of several models at once, each in a thread of its own. Native code holds no lock."""
 
 from __future__ import annotations
 
@@ -17,11 +17,19 @@ Invalid = InvalidSpec | InvalidComponent
 def run_all(
     models: Sequence[Model], mode: Mode, prepared: Callable[[Simulator], None] | None = None
 ) -> Iterator[Outcome]:
-    """The outcomes of models, in their order; `prepared` sees each simulator before any runs.
+    """Simulate models.
+
+    Args:
+        models: The models.
+        mode: Native code ("rapid") or plain Python ("normal").
+        prepared: Is called with each simulator before any model runs.
+
+    Yields:
+        One outcome for each model, in their order.
 
     Raises:
-        InvalidSpec: The spec breaks a rule.
-        InvalidComponent: From the first model that does not compile.
+        InvalidSpec: A model cannot be prepared.
+        InvalidComponent: A component cannot become native code.
     """
     # Prepared one after the other: compiling components is not for threads.
     simulators = [_simulator(model, mode, prepared) for model in models]
@@ -31,11 +39,19 @@ def run_all(
 def run_each(
     models: Sequence[Model | Invalid], mode: Mode, prepared: Callable[[Simulator], None] | None = None
 ) -> Iterator[Outcome]:
-    """As `run_all`, where some models are known to be invalid; such a run fails, and so does one that does not compile.
+    """Like `run_all`, for models of which some may be invalid. An invalid model yields a failed outcome.
+
+    Args:
+        models: Models, or the error of an invalid one.
+        mode: See `run_all`.
+        prepared: See `run_all`.
+
+    Yields:
+        One outcome for each model, in their order.
 
     Raises:
-        InvalidSpec: The spec breaks a rule.
-        InvalidComponent: No model can be run: from the first.
+        InvalidSpec: No model can run; the first error is raised.
+        InvalidComponent: No model can run; the first error is raised.
     """
     made = [_simulator_or_fault(model, mode, prepared) for model in models]
     faults = [each for each in made if not isinstance(each, Simulator)]

@@ -1,4 +1,4 @@
-"""The curves of one component: those that it declares, or else its outputs over each of its inputs."""
+"""The curves of one component: the declared ones, or else its outputs over each of its inputs."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SPANS: Mapping[str, tuple[float, float]] = {"1": (-1.0, 2.0), "rad": (-np.pi / 
 
 @dataclass(frozen=True)
 class Axis:
-    """What an axis shows: a name and a unit."""
+    """The name and the unit of an axis."""
 
     name: str
     unit: str
@@ -46,7 +46,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Graph:
-    """One panel: axes, lines, what inputs do meanwhile, and the values that had to be assumed."""
+    """One panel: axes, lines, inputs over time, and values that had to be assumed."""
 
     name: str
     doc: str
@@ -58,7 +58,7 @@ class Graph:
 
 
 def why_no_curves(component: ComponentFile) -> str:
-    """Why a component has nothing to draw, and where its behaviour is seen instead."""
+    """Why a component has no curves, and where its behaviour can be seen."""
     if isinstance(component, Composite):
         inner = next(iter(described(component)["parts"].values()))["use"]
         return f"it is assembled of other parts; draw those: gaitsim library show {inner} --plot"
@@ -71,7 +71,15 @@ def why_no_curves(component: ComponentFile) -> str:
 
 
 def graphs(component: ComponentFile, settings: Mapping[str, float] | None = None) -> list[Graph]:
-    """The graphs of a component, with some of its parameters set (in SI); none if it has no curves."""
+    """Compute the graphs of a component.
+
+    Args:
+        component: The component.
+        settings: Values of its parameters in SI, by name.
+
+    Returns:
+        The graphs; none if the component has no curves.
+    """
     if isinstance(component, Composite):
         return []
     if component.curves:
@@ -85,7 +93,7 @@ def graphs(component: ComponentFile, settings: Mapping[str, float] | None = None
 
 
 def _has_shape(line: Line) -> bool:
-    """Whether a line is one: not flat, and made of numbers for the most part."""
+    """Whether a line is worth drawing: it is not flat, and at least half of its values are numbers."""
     known = line.y[np.isfinite(line.y)]
     return bool(len(known) > len(line.y) / 2 and np.ptp(known) > 0)
 
@@ -103,7 +111,7 @@ def _at_rest(kind: Primitive) -> Iterator[tuple[str, Curve]]:
 
 
 def _over_steps(kind: Primitive) -> Iterator[tuple[str, Curve]]:
-    """Each output while all inputs step up and down."""
+    """Each output over time while all inputs step up and down."""
     if kind.metrics or "output" not in kind.functions:
         return
     steps = {name: (0.0, 1.0, 0.0) for name, one in kind.inputs.items() if one.default is None}
@@ -136,13 +144,13 @@ def _family_label(kind: Primitive, curve: Curve, value: float) -> str:
 
 
 def _assumed(parameter: Parameter) -> float:
-    """A value, in its unit, for a parameter that has no default."""
+    """A value for a parameter without a default, in its unit."""
     low, high = parameter.bounds or (1.0, 1.0)
     return min(max(1.0, low), high)
 
 
 def _reads(kind: Primitive, curve: Curve, parameter: str) -> bool:
-    """Whether a curve depends on a parameter, as far as can be told."""
+    """Whether a curve may depend on a parameter."""
     function = _helper(kind, curve.of)
     return function is None or parameter in function.__code__.co_varnames[: function.__code__.co_argcount]
 
@@ -170,7 +178,7 @@ def _declared(kind: Primitive, name: str) -> Any:
 def _computed(
     kind: Primitive, curve: Curve, at: Mapping[str, float | str], numbers: Mapping[str, float]
 ) -> tuple[Floats, Floats]:
-    """One line: the abscissa and the ordinate, in the declared units."""
+    """One line: abscissa and ordinate in the declared units."""
     if curve.of not in kind.outputs:
         return _of_function(kind, curve, at, numbers)
     held = {n: parse_unit(_declared(kind, n).unit).to_si(v) for n, v in at.items() if not isinstance(v, str)}
@@ -198,12 +206,12 @@ def _of_function(
 
 
 def _in_si(kind: Primitive, name: str, value: float) -> float:
-    """An argument of a function in SI: one that is a parameter is given in its unit, another as it is."""
+    """An argument of a function in SI. Parameters are given in their units, others in SI."""
     return parse_unit(kind.parameters[name].unit).to_si(value) if name in kind.parameters else value
 
 
 def _swept(trial: Trial, curve: Curve) -> tuple[Floats, Floats]:
-    """The output at rest, over a span of what it depends on."""
+    """The output at rest over a range of what it depends on."""
     x = np.linspace(*curve.span, _POINTS)
     factor = parse_unit(_declared(trial.kind, curve.over).unit).factor
     y = np.full(len(x), np.nan)
@@ -218,7 +226,7 @@ def _swept(trial: Trial, curve: Curve) -> tuple[Floats, Floats]:
 
 
 def _over_time(trial: Trial, curve: Curve) -> tuple[Floats, Floats]:
-    """The output while inputs take one value after the other."""
+    """The output over time while inputs take one value after the other."""
     x = np.linspace(*curve.span, _STEPS + 1)
     dt = float(x[1] - x[0])
     y = np.full(len(x), np.nan)
@@ -236,7 +244,7 @@ def _over_time(trial: Trial, curve: Curve) -> tuple[Floats, Floats]:
 
 
 def _stepped(curve: Curve, name: str) -> Line:
-    """What an input does over time: its values one after the other, for equal times."""
+    """An input over time: its values one after the other, for equal times."""
     x = np.linspace(*curve.span, _STEPS + 1)
     values = np.array(curve.steps[name], dtype=float)
     which = np.minimum((np.arange(len(x)) * len(values)) // len(x), len(values) - 1)

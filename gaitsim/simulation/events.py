@@ -1,9 +1,9 @@
-"""Steps with events in plain Python: Runge-Kutta steps of order 4, cut where an output `guard` rises through 0.
+"""Steps with events in plain Python: Runge-Kutta steps of order 4, divided where an output `guard` rises through 0.
 
-Parts are asked for their forces in every stage, with the states that they have for this step. A guard that is below 0
-where a step begins and not below 0 where it ends has an event between; the step is taken anew from where it began, with
-a length that is halved until the event is located. `reset` then changes states, and what is tied by `mj.reset`
-coordinates; the rest of the step goes on from there. `compiler/events.py` is the same in native code.
+The parts compute their forces in every stage, with their states of this step. If a guard is below 0 at the beginning of
+a step and not below 0 at its end, there is an event between. The step is then repeated from its beginning, and its
+length is halved until the event is located. `reset` changes states, and the ports tied by `mj.reset` change
+coordinates; then the rest of the step follows. `compiler/events.py` does the same in native code.
 """
 
 from __future__ import annotations
@@ -24,14 +24,18 @@ if TYPE_CHECKING:
 
 
 class Failed(Exception):
-    """A component failed; the text says which and why."""
+    """A component failed. The text says which and why."""
 
 
 def advance(run: Checked, step: int) -> None:
-    """A whole step of the mechanics.
+    """Advance the mechanics by one step.
+
+    Args:
+        run: The run.
+        step: The index of the step.
 
     Raises:
-        Failed: The candidate fails.
+        Failed: A component fails.
     """
     done, data = 0.0, run.physics.data
     risen: list[int] = []
@@ -58,7 +62,7 @@ def advance(run: Checked, step: int) -> None:
 
 
 def _move(run: Checked, step: int, begin: tuple[Floats, Floats], span: float) -> None:
-    """On for a time from where the coordinates and rates were at the beginning; then all outputs there."""
+    """Move from the coordinates and rates at the beginning on for a time, and compute all outputs there."""
     model, data = run.physics.model, run.physics.data
     position, speed = begin
     # Not 0: the sum with a rate of -0 would lose its sign, which native code keeps.
@@ -83,13 +87,13 @@ def _guards(run: Checked) -> list[float]:
 
 
 def _risen(run: Checked, before: list[float]) -> list[int]:
-    """The parts whose guards have risen through 0."""
+    """The parts whose guards rose through 0."""
     guards = zip(run.program.guarded, before, _guards(run), strict=True)
     return [part for part, earlier, now in guards if earlier < 0 <= now]
 
 
 def _reset(run: Checked, step: int, parts: list[int], time: float) -> None:
-    """What the events of this instant change: coordinates, and states of their parts."""
+    """Apply the events of an instant: coordinates, and states of their parts."""
     physics = run.physics
     for part in {part for part, _ in physics.assembly.resets}:
         run.gather(part, step)

@@ -1,4 +1,4 @@
-"""Why a run failed: the component, the function, the moment and the values, in one sentence."""
+"""Messages of failed runs: the component, the function, the instant and the values, in one sentence."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ _NEXT = "try a shorter step"
 
 
 def of_exception(program: Program, part: int, stage: str, step: int, error: Exception) -> str:
-    """An exception that a component raised, with its line."""
+    """The message for an exception that a component raised, with its line."""
     return raised_in(program.model.parts[part], stage, _when(program, step), error)
 
 
 def raised_in(part: Part, function: str, moment: str, error: Exception) -> str:
-    """An exception that a part's function raised at a moment, with its line."""
+    """The message for an exception that a part's function raised at an instant, with its line."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == part.type.shown]
     place = f"{part.type.shown}:{lines[-1]}" if lines else function
     said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
@@ -28,7 +28,7 @@ def raised_in(part: Part, function: str, moment: str, error: Exception) -> str:
 
 
 def of_values(program: Program, part: int, stage: str, step: int, u: Floats, x: Floats, y: Floats) -> str:
-    """Which outputs or states are no longer finite, told of the part where that began."""
+    """The message for outputs or states that are not finite, about the part where this began."""
     origin = _origin(program, _read_slots(program, part, stage, y), u, y)
     if origin is not None:
         part, stage = origin, "output"
@@ -45,7 +45,7 @@ def of_values(program: Program, part: int, stage: str, step: int, u: Floats, x: 
 
 
 def _read_slots(program: Program, part: int, stage: str, y: Floats) -> list[int]:
-    """The inputs that what is not finite may come from."""
+    """The inputs that values which are not finite may come from."""
     kind = program.model.parts[part].type
     wrong = [name for name in kind.outputs if not np.isfinite(y[program.outputs.place(part, name)])]
     needed = {name for output in wrong for name in kind.dependencies[output]}
@@ -54,7 +54,7 @@ def _read_slots(program: Program, part: int, stage: str, y: Floats) -> list[int]
 
 
 def _origin(program: Program, slots: list[int], u: Floats, y: Floats) -> int | None:
-    """The part behind these inputs whose output is not finite although all that it needs is."""
+    """The part behind these inputs whose output is not finite although all of its own inputs are."""
     for sender, line in (sender for slot in slots for sender in program.senders[slot]):
         if line >= 0 or np.isfinite(y[sender]):
             continue
@@ -71,26 +71,26 @@ def _origin(program: Program, slots: list[int], u: Floats, y: Floats) -> int | N
 
 
 def of_events(program: Program, parts: list[int], step: int) -> str:
-    """Events without end: after each, the next follows at once."""
+    """The message for events without end: each is followed by the next one at once."""
     who = " and ".join(_who(program, part) for part in parts)
     rule = f"{who} has {EVENTS} events within one step at {_when(program, step)}"
     return f"{rule}; let its guard be below 0 for a while after a reset"
 
 
 def of_mechanics(program: Program, wrong: list[str], step: int) -> str:
-    """Joint coordinates that are no longer finite."""
+    """The message for joint coordinates that are not finite."""
     said = f" in {', '.join(wrong)}" if wrong else ""
     return f"the mechanics diverged{said} at {_when(program, step)}; {_NEXT}"
 
 
 def of_nothing_found(program: Program, step: int) -> str:
-    """Native code ended a run, and plain Python finds no reason."""
+    """The message for a run that native code ended and for which plain Python finds no reason."""
     said = f"native code raised or gave no finite number at {_when(program, step)}, and plain Python does not"
     return f"{said}; run it with --mode normal"
 
 
 def of_runaway(program: Program, joint: str, speed: float, unit: str, step: int) -> str:
-    """A joint that is finite, and faster than what is simulated can be."""
+    """The message for a joint that moves faster than a step can resolve."""
     dt = program.model.simulate.step
     rule = f"the mechanics diverged: {joint} moves at {speed:.3g} {unit}/s at {_when(program, step)}"
     return (

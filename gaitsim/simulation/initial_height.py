@@ -1,4 +1,4 @@
-"""Initial poses that stand: the lowest place that the ground carries is put on the ground."""
+"""Initial poses that stand: the lowest contact is put on the ground."""
 
 from __future__ import annotations
 
@@ -15,7 +15,13 @@ _ABOVE = 100.0  # m: from where one looks down for the ground
 
 
 def stand(model: Any, data: Any, lift: int, touching: tuple[Touching, ...]) -> None:
-    """Move a vertical coordinate until the lowest of the places just touches.
+    """Move a vertical coordinate until the lowest of some places touches the ground.
+
+    Args:
+        model: MuJoCo's model.
+        data: MuJoCo's data.
+        lift: The index of the coordinate.
+        touching: The places.
 
     Raises:
         SimulationFailed: There is no place, or no ground below one.
@@ -29,7 +35,7 @@ def stand(model: Any, data: Any, lift: int, touching: tuple[Touching, ...]) -> N
 
 
 def _gap(model: Any, data: Any, place: Touching) -> float:
-    """By how much a place would have to sink to touch the ground below it, in m."""
+    """The distance of a place from the ground below it, in m."""
     body = model.body(place.body).id
     center = data.xpos[body] + data.xmat[body].reshape(3, 3) @ np.array(place.position)
     up = np.array([0.0, 0.0, 1.0])

@@ -1,4 +1,4 @@
-"""How one run of a loop ended, before metrics are made of it."""
+"""The result of one run of a loop, before metrics are computed."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from gaitsim.compiler.program import Floats
 
 @dataclass(frozen=True)
 class LoopResult:
-    """Steps done, who stopped it, why it failed; the tables of parameters and states; the record."""
+    """The number of steps, the part that stopped the run, the reason of a failure, the tables of parameters and
+    states, and the record.
+    """
 
     steps: int
     stopped_by: int | None

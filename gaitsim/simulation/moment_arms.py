@@ -1,4 +1,4 @@
-"""Moment arms of paths over hinges, each hinge turned alone from the initial pose."""
+"""Moment arms of paths about hinges. Each hinge alone is turned from the initial pose."""
 
 from __future__ import annotations
 
@@ -26,16 +26,17 @@ _NOTHING = 1e-6  # m; a path that runs through the axis has no side
 
 @dataclass(frozen=True)
 class MomentArm:
-    """The arm of one path over one hinge: positive where tension makes the hinge's angle grow.
+    """The moment arm of one path about one hinge. It is positive where tension increases the angle of the hinge.
 
     Attributes:
-        muscle: The address of what pulls, or of the path if that is no muscle's.
-        path: The component that has the arm; one of a path of points is told from its `points`.
-        limited: Whether the hinge says where it ends.
-        backwards: Whether the child, hanging, turns backwards as the angle grows: about the axis to the left. None if
+        muscle: The address of the muscle, or of the path if it belongs to no muscle.
+        path: The component with the moment arm.
+        points: Whether the path runs through points.
+        limited: Whether the hinge declares its range.
+        backwards: Whether a hanging child turns backwards as the angle increases, about the axis to the left; None if
             it turns out of the sagittal plane.
-        alone: Whether the hinge is a whole joint; an arm over one hinge of several depends on the angles of the others.
-        initial: The arm in the initial pose. Angles in rad, arms and lengths in m.
+        alone: Whether the hinge is a whole joint; otherwise the arm also depends on the joint's other angles.
+        initial: The moment arm in the initial pose, in m. Angles are in rad, arms and lengths in m.
     """
 
     muscle: str
@@ -52,27 +53,28 @@ class MomentArm:
 
     @cached_property
     def turns(self) -> tuple[float, ...]:
-        """Angles at which the arm changes its sign."""
+        """The angles in rad at which the moment arm changes its sign."""
         signed = np.flatnonzero(np.abs(self.arms) > _NOTHING)
         changes = np.flatnonzero(np.diff(np.sign(self.arms[signed])))
         return tuple(float(self.angles[signed[i + 1]]) for i in changes)
 
     @cached_property
     def jumps(self) -> tuple[float, ...]:
-        """Angles at which the path slips: its length jumps, as no moment arm explains."""
+        """The angles in rad at which the length of the path jumps because it slips off."""
         explained = -np.diff(self.angles) * (self.arms[1:] + self.arms[:-1]) / 2
         slips = np.flatnonzero(np.abs(np.diff(self.lengths) - explained) > 1e-3)
         return tuple(float(self.angles[i + 1]) for i in slips)
 
 
 def moment_arms(model: Model) -> list[MomentArm]:
-    """Every path over every hinge that it crosses, over the hinge's limits or 150 degrees to either side.
+    """Compute the moment arm of every path about every hinge that it crosses.
 
-    The other coordinates stay as they are in the initial pose; loops of bodies are not kept closed.
+    Each hinge turns over its limits, or over 150 degrees to either side. The other coordinates keep their initial
+    values, and loops of bodies are not kept closed.
 
     Raises:
-        InvalidSpec: The spec breaks a rule.
-        SimulationFailed: The candidate fails.
+        InvalidSpec: The mechanics cannot be built.
+        SimulationFailed: The initial pose cannot be computed.
     """
     physics = Physics(Program(model))
     physics.pose(model.values())
@@ -90,7 +92,7 @@ def moment_arms(model: Model) -> list[MomentArm]:
 
 @dataclass(frozen=True)
 class _Hinge:
-    """A hinge, and the angles over which arms are looked at; `now` is the angle in the initial pose."""
+    """A hinge and the angles over which moment arms are computed; `now` is the angle in the initial pose."""
 
     part: Part
     joint: str
@@ -129,7 +131,7 @@ def _hinges(model: Model, physics: Physics) -> Iterator[_Hinge]:
 
 
 def _of_points(model: Model, physics: Physics, hinge: _Hinge) -> Iterator[MomentArm]:
-    """The arms of paths through points over one hinge."""
+    """The moment arms of paths through points about one hinge."""
     mechanics, data, pose = physics.model, physics.data, physics.data.qpos.copy()
     angles = np.append(hinge.angles, hinge.now)
     before, at, after = (_lengths(mechanics, data, pose, hinge.place, angles + turn) for turn in (-_TURN, 0.0, _TURN))
@@ -148,7 +150,7 @@ def _of_points(model: Model, physics: Physics, hinge: _Hinge) -> Iterator[Moment
 
 
 def _lengths(mechanics: Any, data: Any, pose: Floats, place: int, angles: Floats) -> Floats:
-    """Lengths of all tendons: a row for each angle."""
+    """The lengths of all tendons in m: a row for each angle."""
     rows = np.zeros((len(angles), mechanics.ntendon))
     for k, angle in enumerate(angles):
         data.qpos[:] = pose

@@ -1,4 +1,4 @@
-"""Runs a program in rapid mode: native code on the tables of one candidate."""
+"""Rapid mode: native code runs on the tables of one candidate."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ _C_TYPES: Mapping[str, Any] = {
 
 @dataclass(frozen=True)
 class _Native:
-    """A program's native functions for mechanics of one shape, by what they are given; they hold no lock."""
+    """The native functions of a program for mechanics of one shape. They hold no lock."""
 
     code: Code  # in memory for as long as this lives
     start: Callable[[Mapping[str, Any]], int]
@@ -51,7 +51,7 @@ class _Native:
 
 @dataclass(frozen=True)
 class _Reached:
-    """How far native code came: whether all parts have started, how it ended, in which step, and the tables then."""
+    """How far native code came: whether all parts started, how it ended, in which step, and the tables then."""
 
     started: bool
     status: int
@@ -61,10 +61,10 @@ class _Reached:
 
 @dataclass
 class NativeLoop:
-    """A program in native code;
+    """A program in native code.
 
     Attributes:
-        timed: With a stopwatch in it, see `simulation/profile.py`.
+        timed: Whether it has a stopwatch; see `simulation/profile.py`.
     """
 
     program: Program
@@ -77,7 +77,7 @@ class NativeLoop:
         self.physics = Physics(self.program)
 
     def prepare(self) -> None:
-        """Compile or load all native code, and check what only the posed model can tell.
+        """Compile or load all native code, and make the checks that need the posed model.
 
         Raises:
             InvalidComponent: A component file breaks the contract.
@@ -92,7 +92,13 @@ class NativeLoop:
         return self._bound()[0].code
 
     def run(self, values: Sequence[float], steps: int, recorded: bool) -> LoopResult:
-        """Simulate one candidate's numbers."""
+        """Simulate one candidate.
+
+        Args:
+            values: All numbers of the model, in SI.
+            steps: The largest number of steps.
+            recorded: Whether to record signals.
+        """
         record = np.zeros((steps, len(self.program.signals))) if recorded else None
         reached = self._reach(values, steps, record)
         failure, stopped_by = None, None
@@ -107,7 +113,7 @@ class NativeLoop:
         return LoopResult(reached.step, stopped_by, failure, reached.tables.p, reached.tables.x, rows)
 
     def _reach(self, values: Sequence[float], steps: int, record: Floats | None = None) -> _Reached:
-        """Pose and start a candidate, and go on for a number of steps."""
+        """Pose and start a candidate, and simulate a number of steps."""
         physics = self.physics
         physics.pose(values)
         tables = self._tables(values)
@@ -154,7 +160,9 @@ class NativeLoop:
         return _Reached(started, status, int(step[0]), tables)
 
     def _culprit(self, values: Sequence[float], noticed: _Reached) -> str:
-        """What failed: up to it once more in native code, and then in Python, with every call checked."""
+        """Find what failed: native code runs up to the failure once more, then Python continues and checks every
+        call.
+        """
         try:
             if not noticed.started:
                 self.physics.pose(values)
@@ -170,7 +178,7 @@ class NativeLoop:
         return Tables.of(self.program, values, self.physics.initial_states(values), len(self.physics.assembly.applies))
 
     def _bound(self) -> tuple[_Native, Integers]:
-        """Native code for the present mechanics, and the addresses in MuJoCo's data that it reads and writes.
+        """The native code for the present mechanics, and the addresses in MuJoCo's data that it reads and writes.
 
         Raises:
             InvalidComponent: A component file breaks the contract.

@@ -1,4 +1,4 @@
-"""What a run yields: metrics, score, status; and a trajectory only when asked for."""
+"""The result of a run: metrics, score and status, and a trajectory if one was asked for."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from gaitsim.errors import Usage
 
 @dataclass(frozen=True)
 class Trajectory:
-    """Outputs and states of all parts (`model.recorded_signals`) at every instant: values (instants x signals)."""
+    """Outputs and states of all parts (`model.recorded_signals`) at every instant, in SI: an array of instants x
+    signals.
+    """
 
     times: NDArray[np.float64]
     signals: tuple[str, ...]
@@ -26,10 +28,10 @@ class Trajectory:
 
 @dataclass(frozen=True)
 class Outcome:
-    """The result of one simulation. Status: completed, stopped (by a measure) or failed.
+    """The result of one simulation. Its status is completed, stopped (by a measure) or failed.
 
     Attributes:
-        level: What the measure that stopped it says of the end, if it has a state with named levels: fell_to_the_right.
+        level: The final state of the measure that stopped it, if that has named levels, such as fell_to_the_right.
     """
 
     status: str
@@ -44,7 +46,7 @@ class Outcome:
 
     @property
     def ending(self) -> str:
-        """Who stopped it, and what that says of it, in words: fall_time, fell to the right."""
+        """The measure that stopped the run, and its final state in words: fall_time, fell to the right."""
         return f"{self.reason}, {self.level.replace('_', ' ')}" if self.level else self.reason
 
     @property
@@ -52,10 +54,13 @@ class Outcome:
         return self.steps * self.step
 
     def every(self, interval: float) -> Outcome:
-        """The same run, of whose trajectory one instant in `interval` seconds is kept, the first included.
+        """The same run with a thinned trajectory.
+
+        Args:
+            interval: The time between two instants that are kept, in s. The first instant is kept.
 
         Raises:
-            Usage: Unless that is a whole number of steps.
+            Usage: The interval is not a whole number of steps.
         """
         whole, steps = self.trajectory, steps_in(interval, self.step)
         if whole is None:
@@ -65,10 +70,14 @@ class Outcome:
 
 
 def steps_in(interval: float, step: float) -> int:
-    """How many steps an interval has, both in s.
+    """The number of steps in an interval.
+
+    Args:
+        interval: In s.
+        step: In s.
 
     Raises:
-        Usage: Unless that is a whole number.
+        Usage: The interval is not a whole number of steps.
     """
     steps = round(interval / step)
     if steps < 1 or abs(steps * step - interval) > 1e-9:

@@ -1,4 +1,4 @@
-"""MuJoCo's model and data for one program, rebuilt when a candidate changes the mechanics."""
+"""MuJoCo's model and data for one program. They are rebuilt when a candidate changes the mechanics."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ _FARTHEST = 0.1  # rad or m in one step
 
 @dataclass
 class Physics:
-    """The mechanics of one program, posed anew for each candidate."""
+    """The mechanics of one program, posed for each candidate."""
 
     program: Program
     _built_for: tuple[float, ...] | None = None
@@ -43,7 +43,7 @@ class Physics:
 
     @cached_property
     def _mechanical(self) -> tuple[int, ...]:
-        """The numbers that the MuJoCo model is made of."""
+        """The numbers from which the MuJoCo model is made."""
         found: list[int] = []
         for part in self.program.model.parts:
             if "build" in part.type.functions:
@@ -52,7 +52,10 @@ class Physics:
         return tuple(found)
 
     def pose(self, values: Sequence[float]) -> None:
-        """Build if needed, reset all of MuJoCo's state, set the initial coordinates and close loops.
+        """Build the model if needed, reset MuJoCo's state, set the initial coordinates, and close loops.
+
+        Args:
+            values: All numbers of the model, in SI.
 
         Raises:
             SimulationFailed: No pose has these coordinates and closed loops.
@@ -86,7 +89,7 @@ class Physics:
 
     @cached_property
     def _coordinates(self) -> dict[str, tuple[str, int]]:
-        """Outputs that are joint coordinates, by address: which array, which place."""
+        """The outputs that are joint coordinates: array and index by address."""
         parts = self.program.model.parts
         return {
             f"{parts[i].address}.{tie.port}": (tie.field, tie_place(self.model, tie))
@@ -95,10 +98,10 @@ class Physics:
         }
 
     def check_initial(self) -> None:
-        """Every initial value is for a joint coordinate or a state.
+        """Check that every initial value belongs to a joint coordinate or a state.
 
         Raises:
-            InvalidSpec: The spec breaks a rule.
+            InvalidSpec: One belongs to a computed output.
         """
         self.pose(self.program.model.values())
         for address, number in self.program.model.initial.items():
@@ -110,12 +113,12 @@ class Physics:
 
     @cached_property
     def appliers(self) -> tuple[int, ...]:
-        """Parts of which an input goes into MuJoCo; it must be of this instant then."""
+        """The parts with an input that is written to MuJoCo. It must be that of the same instant."""
         parts = self.program.model.parts
         return tuple(sorted({i for i, tie in self.assembly.applies if tie.port in parts[i].type.inputs}))
 
     def initial_states(self, values: Sequence[float]) -> dict[int, float]:
-        """Initial values of states: place in the table -> value."""
+        """The initial values of states, by index in the table."""
         found = {}
         for address, number in self.program.model.initial.items():
             if address not in self._coordinates:
@@ -124,14 +127,17 @@ class Physics:
 
     @property
     def fastest(self) -> float:
-        """The largest velocity of a joint that a run may have, in rad/s or m/s."""
+        """The largest joint velocity that a run may have, in rad/s or m/s."""
         return max(_FASTEST, _FARTHEST / self.program.model.simulate.step)
 
     def divergence(self, step: int) -> str | None:
-        """Which joints are no longer at a finite place, or jump instead of moving, in words.
+        """Check whether the mechanics diverged.
 
-        A joint that is faster than any limb and covers much of its range within one step is not simulated: its
-        numbers are finite and mean nothing.
+        A joint that is faster than any limb and covers much of its range in one step is not resolved: its numbers are
+        finite but meaningless.
+
+        Returns:
+            The message that names the joints; None if nothing diverged.
         """
         if not (np.all(np.isfinite(self.data.qpos)) and np.all(np.isfinite(self.data.qvel))):
             wrong = [

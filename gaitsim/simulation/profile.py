@@ -1,4 +1,4 @@
-"""What a step of a model costs, part by part, and stage by stage in MuJoCo."""
+"""The cost of a step of a model, part by part, and stage by stage within MuJoCo."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ _STAGES = {
 
 @dataclass(frozen=True)
 class Cost:
-    """What a part, or a stage of MuJoCo, takes of each step: how often it is called, and seconds altogether."""
+    """What a part, or a stage of MuJoCo, takes of each step: the number of calls, and the time of all of them in s."""
 
     name: str
     use: str
@@ -47,11 +47,11 @@ class Cost:
 
 @dataclass(frozen=True)
 class Profile:
-    """Costs of a step, largest first.
+    """The costs of a step, largest first.
 
     Attributes:
-        step: Seconds without the stopwatch.
-        slower: How many times more with it.
+        step: The time of a step without the stopwatch, in s.
+        slower: The factor by which the stopwatch slows the step.
     """
 
     costs: tuple[Cost, ...]
@@ -61,11 +61,11 @@ class Profile:
 
     @property
     def measured(self) -> float:
-        """Seconds of all costs together."""
+        """The sum of all costs, in s."""
         return sum(cost.seconds for cost in self.costs)
 
     def by_component(self) -> tuple[Cost, ...]:
-        """The costs of all parts of a component as one."""
+        """The costs, added over the parts of each component."""
         found: dict[str, Cost] = {}
         for cost in self.costs:
             key = cost.name if cost.use in ("MuJoCo", "") else cost.use
@@ -75,12 +75,12 @@ class Profile:
 
 
 def profile(model: Model) -> Profile:
-    """Run a model from its starts several times, with and without the stopwatch, in turns.
+    """Run a model several times, alternately with and without the stopwatch.
 
     Raises:
         SimulationFailed: The run fails.
-        InvalidSpec: The spec breaks a rule.
-        InvalidComponent: A component file breaks the contract.
+        InvalidSpec: The model cannot be prepared.
+        InvalidComponent: A component cannot become native code.
     """
     plain, timed = NativeLoop(Program(model)), NativeLoop(Program(model), timed=True)
     for each in (plain, timed):
@@ -100,7 +100,7 @@ def profile(model: Model) -> Profile:
 
 @dataclass(frozen=True)
 class _Timed:
-    """One run with the stopwatch: seconds of a step, and what its parts took."""
+    """One run with the stopwatch: the time of a step in s, and the times of its parts."""
 
     step: float
     costs: tuple[Cost, ...]
@@ -132,7 +132,7 @@ class _Watch:
         return _Timed(float(self.ticks[-1]) * tick / self.steps, self._costs(tick))
 
     def _costs(self, tick: float) -> tuple[Cost, ...]:
-        """What each part of a step took, less what reading the stopwatch takes."""
+        """The time of each part of a step, less the time of reading the stopwatch."""
         parts, others = np.split(self.ticks * (tick / self.steps), [len(self.calls)])
         first, second, reading, whole = others
         corrected = np.maximum(parts - reading * np.array(self.calls), 0)
@@ -154,7 +154,7 @@ class _Watch:
 
 
 def _step(loop: NativeLoop, model: Model) -> float:
-    """Wall time of a step: of a whole run, less what it takes to pose and start the model."""
+    """The wall time of a step in s: that of a whole run, less the time to pose and start the model."""
     began = time.perf_counter()
     _run(loop, model, 1)
     started = time.perf_counter()
@@ -164,7 +164,7 @@ def _step(loop: NativeLoop, model: Model) -> float:
 
 
 def _run(loop: NativeLoop, model: Model, most: int | None = None) -> int:
-    """One run, whole unless there is a most; its steps."""
+    """Run once and return the number of steps."""
     steps = most or max(1, round(model.simulate.duration / model.simulate.step))
     ending = loop.run(model.values(), steps, recorded=False)
     if ending.failure:

@@ -1,4 +1,4 @@
-"""Initial poses that close the loops of bodies: Newton on the coordinates that nobody has set."""
+"""Initial poses that close the loops of bodies, by Newton's method on the coordinates that `initial:` leaves open."""
 
 from __future__ import annotations
 
@@ -17,10 +17,16 @@ _MOST_STEPS = 50
 
 
 def close_loops(model: Any, data: Any, set_positions: Collection[int], set_velocities: Collection[int]) -> None:
-    """Move the free coordinates of a pose, and then their velocities, onto the equality constraints.
+    """Move the free coordinates of a pose, and then their velocities, so that all equality constraints hold.
+
+    Args:
+        model: MuJoCo's model.
+        data: MuJoCo's data.
+        set_positions: Indices of the coordinates that are given.
+        set_velocities: Indices of the velocities that are given.
 
     Raises:
-        SimulationFailed: No posture near by closes them.
+        SimulationFailed: No pose nearby closes the loops.
     """
     if model.neq == 0:
         return
@@ -45,7 +51,7 @@ def close_loops(model: Any, data: Any, set_positions: Collection[int], set_veloc
 
 
 def _newton(model: Any, data: Any, gap: Floats, rows: Floats, free: list[int]) -> tuple[Floats, Floats]:
-    """One step, shortened until the gap is smaller."""
+    """One step of Newton's method, shortened until the gap decreases."""
     step = np.zeros(model.nv)
     step[free] = -np.linalg.lstsq(rows[:, free], gap)[0]
     step *= min(1.0, _LARGEST_STEP / max(_size(step), _LARGEST_STEP))
@@ -62,7 +68,7 @@ def _newton(model: Any, data: Any, gap: Floats, rows: Floats, free: list[int]) -
 
 
 def _gap(model: Any, data: Any) -> tuple[Floats, Floats]:
-    """By how much each row of the equality constraints is open, and its derivatives."""
+    """The gap of each row of the equality constraints, and its derivatives."""
     mujoco.mj_fwdPosition(model, data)
     count = int(data.ne)
     rows = np.zeros((count, model.nv))

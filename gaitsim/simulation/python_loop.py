@@ -1,7 +1,7 @@
 """Normal mode: the closed loop in plain Python, where breakpoint(), print and warnings work.
 
-This is the reference; native code (`compiler/native.py`) does the same without Python. Where that finds a number
-that is not finite, the step is done here once more, to say where and why.
+This is the reference. Native code (`compiler/native.py`) computes the same without Python. If native code finds a
+number that is not finite, the step is repeated here, to report where and why.
 """
 
 from __future__ import annotations
@@ -38,15 +38,21 @@ class PythonLoop:
         self.physics = Physics(self.program)
 
     def prepare(self) -> None:
-        """Check what only the posed model can tell.
+        """Make the checks that need the posed model.
 
         Raises:
-            InvalidSpec: The spec breaks a rule.
+            InvalidSpec: An initial value is not that of a coordinate or a state.
         """
         self.physics.check_initial()
 
     def run(self, values: Sequence[float], steps: int, recorded: bool) -> LoopResult:
-        """Simulate one candidate's numbers."""
+        """Simulate one candidate.
+
+        Args:
+            values: All numbers of the model, in SI.
+            steps: The largest number of steps.
+            recorded: Whether to record signals.
+        """
         self.physics.pose(values)
         states, applied = self.physics.initial_states(values), len(self.physics.assembly.applies)
         tables = Tables.of(self.program, values, states, applied)
@@ -82,7 +88,7 @@ class PythonLoop:
 
 
 class Checked:
-    """The steps of one run on its tables, each call of a component checked."""
+    """The steps of one run on its tables. Every call of a component is checked."""
 
     def __init__(self, program: Program, physics: Physics, tables: Tables) -> None:
         self.program, self.physics, self.tables = program, physics, tables
@@ -94,10 +100,10 @@ class Checked:
         self.stops = [program.outputs.place(i, "stop") for i in program.stops]
 
     def start(self) -> None:
-        """Start all parts in rounds, so that what goes in circles (a fiber, its reflex, its activation) is read.
+        """Start all parts, in rounds that resolve circular dependencies such as fiber, reflex and activation.
 
         Raises:
-            Failed: The candidate fails.
+            Failed: A component fails.
         """
         self._read()
         for i in range(STARTING_ROUNDS):
@@ -108,19 +114,19 @@ class Checked:
             self._fill_delays()
 
     def step(self, step: int) -> None:
-        """One whole step.
+        """Simulate one step.
 
         Raises:
-            Failed: The candidate fails.
+            Failed: A component fails.
         """
         self.outputs(step)
         self.update(step)
 
     def outputs(self, step: int) -> None:
-        """The first half of a step: all outputs of its instant, into MuJoCo and into the past.
+        """The first half of a step: compute all outputs, and write them to MuJoCo and to the delay lines.
 
         Raises:
-            Failed: The candidate fails.
+            Failed: A component fails.
         """
         self.look(step)
         self.apply(step)
@@ -128,10 +134,10 @@ class Checked:
         past[step % len(past)] = [self.tables.y[delay.sender] for delay in self.program.delays]
 
     def look(self, step: int) -> None:
-        """All outputs at the present positions and velocities of MuJoCo.
+        """Compute all outputs at the present positions and velocities of MuJoCo.
 
         Raises:
-            Failed: The candidate fails.
+            Failed: A component fails.
         """
         mujoco.mj_step1(self.physics.model, self.physics.data)
         self._read()
@@ -139,15 +145,15 @@ class Checked:
 
     @property
     def stopper(self) -> int | None:
-        """The part that ends the run at this instant."""
+        """The part that ends the run at this instant; None if none does."""
         found = next((s for s in self.stops if self.tables.y[s] > 0.5), None)
         return None if found is None else self.program.part_of_output(found)
 
     def update(self, step: int) -> None:
-        """The second half of a step: the states of all parts and of MuJoCo at the next instant.
+        """The second half of a step: advance the states of all parts and of MuJoCo.
 
         Raises:
-            Failed: The candidate fails.
+            Failed: A component fails.
         """
         for part in self.program.updates:
             self.gather(part, step)
@@ -155,12 +161,12 @@ class Checked:
         self._advance(step)
 
     def _fill_delays(self) -> None:
-        """Before the start, a delayed signal was what it is at the start."""
+        """Fill the delay lines with the signals at the start."""
         for k, (delay, before) in enumerate(zip(self.program.delays, self.tables.before, strict=True)):
             self.tables.past[:, k] = self.tables.y[delay.sender] if np.isnan(before) else before
 
     def _outputs(self, step: int, starting: bool = False, lenient: bool = False) -> None:
-        """Call every `output` in order, at the start after `start`; lenient calls may fail."""
+        """Call every `output` in order; at the start, each `start` comes before. Lenient calls may fail."""
         for call in self.program.calls:
             self.gather(call.part, step)
             with contextlib.suppress(Failed) if lenient else contextlib.nullcontext():
@@ -169,10 +175,14 @@ class Checked:
                 self.call(call.part, "output", step, check=call.last)
 
     def call(self, part: int, stage: str, step: int, check: bool = True, time: float | None = None) -> None:
-        """Call one function of a part; what it raises or leaves not finite ends the run.
+        """Call one function of a part. The run ends if it raises or sets a number that is not finite.
 
         Args:
-            time: Of `reset`, the instant of its event.
+            part: The index of the part.
+            stage: The name of the function.
+            step: The index of the step.
+            check: Whether to check for numbers that are not finite.
+            time: For `reset`, the instant of the event in s.
         """
         function = self.functions[part].get(stage)
         p, u, x, y = self.views[part]
@@ -197,7 +207,7 @@ class Checked:
         return bool(np.all(np.isfinite(table[span.start : span.stop])))
 
     def gather(self, part: int, step: int) -> None:
-        """Sum what arrives at a part's inputs."""
+        """Sum the senders of a part's inputs."""
         for slot in self.slots[part]:
             value = self.tables.base[slot]
             for sender, line in self.program.senders[slot]:
@@ -205,7 +215,7 @@ class Checked:
             self.tables.u[slot] = value
 
     def _delayed(self, line: int, step: int) -> Any:
-        """A signal of the past, between the two nearest steps."""
+        """A past signal, interpolated between the two nearest steps."""
         past, rest = self.tables.past, self.tables.rest[line]
         newest = step - self.tables.whole[line]
         newer, older = past[newest % len(past), line], past[(newest - 1) % len(past), line]
@@ -217,7 +227,7 @@ class Checked:
             self.tables.y[self.program.outputs.place(part, tie.port)] = value
 
     def apply(self, step: int) -> None:
-        """Forces and controls, into MuJoCo."""
+        """Write forces and controls to MuJoCo."""
         for part in self.physics.appliers:
             self.gather(part, step)
         for k, (part, tie) in enumerate(self.physics.assembly.applies):
@@ -227,7 +237,7 @@ class Checked:
             self.physics.array(tie.field)[tie_place(self.physics.model, tie)] = value
 
     def _carried_on(self, number: int, value: Any) -> Any:
-        """A value that is written, carried on to the middle of the step; before the first step it was the same."""
+        """A written value, extrapolated to the middle of the step. In the first step it is constant."""
         before = self.tables.written[number]
         self.tables.written[number] = value
         return value if np.isnan(before) else 1.5 * value - 0.5 * before
@@ -244,7 +254,7 @@ class Checked:
             mujoco.mj_step2(model, data)
 
     def sent(self, part: int, port: str) -> Any:
-        """An output of a part, or what has arrived at an input."""
+        """The value of an output of a part, or of an input."""
         _, u, _, y = self.views[part]
         return getattr(y if port in self.program.model.parts[part].type.outputs else u, port)
 

@@ -1,4 +1,4 @@
-"""One simulation: a program and a candidate in, an Outcome out."""
+"""One simulation: a program and a candidate give an Outcome."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ Mode = Literal["rapid", "normal"]
 
 
 class _Raised(Exception):
-    """A measure or an objective raised; the cause says what."""
+    """A measure or an objective raised an exception, which is the cause of this one."""
 
     def __init__(self, part: Part, function: str) -> None:
         super().__init__(part.address, function)
@@ -43,7 +43,7 @@ def _called(part: Part, function: str, *arguments: Any) -> None:
 
 @dataclass
 class Simulator:
-    """Runs candidates of one model; what it prepares is kept between them, what they leave is not."""
+    """Simulates candidates of one model. Prepared code is kept between runs; no state of a run is."""
 
     model: Model
     mode: Mode = "rapid"
@@ -64,11 +64,16 @@ class Simulator:
 
     @property
     def xml(self) -> str:
-        """The mechanics as MJCF, with what is to be looked at."""
+        """The mechanics as MJCF, with everything that films show."""
         return assemble(self.model, self.model.values()).xml
 
     def run(self, candidate: Sequence[float] | None = None, recorded: bool = False) -> Outcome:
-        """Simulate one candidate: the values of `model.free`, or None for their starts."""
+        """Simulate one candidate.
+
+        Args:
+            candidate: The values of `model.free` in its order, in SI; their starts by default.
+            recorded: Whether to keep the trajectory.
+        """
         began = time.perf_counter()
         simulate = self.model.simulate
         steps = max(1, round(simulate.duration / simulate.step))
@@ -92,7 +97,9 @@ class Simulator:
         return Outcome(status, reason, ending.steps, simulate.step, metrics, score, wall, trajectory, level)
 
     def first_instant(self) -> dict[str, float]:
-        """Every recorded signal at the start of the model's own numbers, in SI; empty if it fails at once."""
+        """Every recorded signal at the first instant, at the model's own numbers, in SI; empty if the run fails
+        there.
+        """
         with np.errstate(all="ignore"):
             ending: LoopResult = self._loop.run(self.model.values(), 1, True)
         if ending.record is None or not len(ending.record):
@@ -100,7 +107,7 @@ class Simulator:
         return dict(zip(self.program.signals, map(float, ending.record[0]), strict=True))
 
     def _judged(self, ending: LoopResult, values: Sequence[float]) -> tuple[dict[str, float], float | None, str | None]:
-        """Metrics and score, or why there are none."""
+        """Metrics and score, or the reason why there are none."""
         if ending.failure:
             return {}, None, ending.failure
         try:
@@ -123,18 +130,18 @@ class Simulator:
         return found
 
     def _level(self, index: int, ending: LoopResult) -> str:
-        """What the first state with named levels of a part is at the end; empty without one."""
+        """The name of the final value of a part's first state with levels; empty if it has none."""
         for name, state in self.model.parts[index].type.states.items():
             if state.levels:
                 return state.levels[int(ending.x[self.program.states.place(index, name)])]
         return ""
 
     def _in_units(self, metrics: dict[str, float]) -> dict[str, float]:
-        """Metrics in their declared units: inside, all numbers are in SI."""
+        """Metrics in their declared units. Inside, all numbers are in SI."""
         return {name: value / self._factors[name] for name, value in metrics.items()}
 
     def _score(self, metrics: dict[str, float], values: Sequence[float]) -> float | None:
-        """The cost; None without an objective, or if it is not finite because a metric is not."""
+        """The cost; None without an objective, or if a metric makes it infinite or nan."""
         objective = self.model.objective
         if objective is None:
             return None
@@ -149,7 +156,7 @@ class Simulator:
 
 
 def _cost(objective: Objective, metrics: Mapping[str, float], values: Sequence[float]) -> float:
-    """The cost of metrics in SI, its terms included."""
+    """The cost of metrics in SI, with its terms."""
     part = objective.part
     wired = {name: metrics[metric] for name, metric in objective.metrics.items()}
     constants = {name: values[index] for name, index in part.constants.items()}

@@ -1,4 +1,4 @@
-"""Is the start of a run one that can be meant? What every part declares of its signals is looked at."""
+"""Checks of the first instant: signals must lie in the ranges that components declare for the start."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from gaitsim.units import parse_unit
 
 @dataclass(frozen=True)
 class Doubts:
-    """What is unusual at a start, and what is beyond reason."""
+    """Signals that are unusual at the start, and signals that are impossible."""
 
     unusual: tuple[Fault, ...] = ()
     impossible: tuple[Fault, ...] = ()
 
 
 def start_doubts(simulator: Simulator) -> Doubts:
-    """Signals of the first instant that are outside the ranges that components declare."""
+    """Compare the signals of the first instant with the declared ranges."""
     model, signals = simulator.model, simulator.first_instant()
     for connection in model.connections:
         if connection.sender in signals:
@@ -43,7 +43,7 @@ def start_doubts(simulator: Simulator) -> Doubts:
 
 
 def _ranged(part: Part) -> Iterator[tuple[str, Ranged]]:
-    """The signals of a part that have a range."""
+    """The signals of a part that declare a range."""
     homes: list[Mapping[str, Ranged]] = [part.type.inputs, part.type.outputs, part.type.states]
     for name, declared in (item for home in homes for item in home.items()):
         if declared.usual or declared.possible:
@@ -52,7 +52,7 @@ def _ranged(part: Part) -> Iterator[tuple[str, Ranged]]:
 
 @dataclass(frozen=True)
 class _Start:
-    """One signal at the start, in SI, with what was declared of it and the numbers of its part."""
+    """A signal at the start in SI, with its declaration and the numbers of its part."""
 
     model: Model
     part: Part
@@ -62,7 +62,9 @@ class _Start:
     numbers: Mapping[str, float]
 
     def beyond(self, ends: tuple[End, End] | None) -> tuple[End, str] | None:
-        """The end of a range that the value is beyond, but for rounding, and which end that is."""
+        """The end of a range that the value exceeds by more than rounding, and which end it is; None if it lies
+        within.
+        """
         if ends is None:
             return None
         rounding = 1e-9 * max(1.0, abs(self.value))
@@ -87,7 +89,7 @@ class _Start:
         return end_in_si(end, self.declared.unit, units_of(self.part.type.parameters), self.numbers)
 
     def _told(self, number: float) -> str:
-        """A number in SI with its unit; angles in deg."""
+        """A number in SI as text with its unit; angles are in deg."""
         unit = self.declared.unit
         if parse_unit(unit).dimension == parse_unit("deg").dimension:
             unit = "deg"

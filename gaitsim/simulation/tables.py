@@ -1,4 +1,4 @@
-"""The tables of one run: all numbers of a candidate, laid out as its program says; the same in both modes."""
+"""The tables of one run: all numbers of a candidate in the layout of its program, the same in both modes."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from gaitsim.compiler.program import Floats, Integers, Program
 
 @dataclass(frozen=True)
 class Tables:
-    """Parameters, inputs, states and outputs; constants of the inputs; the past of delayed signals.
+    """Parameters, inputs, states and outputs, constants of the inputs, and delay lines.
 
     Attributes:
-        past: A row for each of the last steps, a power of two of them, with a number for each delay line. whole, rest:
-            each line's delay in steps.
-        before: What it gives before the start; nan for what is sent at the start.
+        past: A row for each of the last steps and a column for each delay line; the number of rows is a power of two.
+        whole, rest: The delay of each line in steps, as an integer and a fraction.
+        before: The value of each line before the start; nan for the signal at the start.
         places, values: Initial values of states.
-        written: What was last written into MuJoCo, for rk4; nan before.
+        written: The numbers last written to MuJoCo, for rk4; nan before the first step.
     """
 
     p: Floats
@@ -38,10 +38,16 @@ class Tables:
 
     @staticmethod
     def of(program: Program, values: Sequence[float], initial: dict[int, float], writes: int) -> Tables:
-        """The tables of a candidate before its start; `initial`: place of a state -> value; `writes`: into MuJoCo.
+        """Make the tables of a candidate.
+
+        Args:
+            program: The program.
+            values: All numbers of the model, in SI.
+            initial: Initial values of states by index.
+            writes: The count of numbers that are written to MuJoCo.
 
         Raises:
-            SimulationFailed: A delay that an expression makes shorter than a step.
+            SimulationFailed: An expression makes a delay shorter than a step.
         """
         numbers = np.asarray(values, dtype=np.float64)
         delays = program.delay_steps(numbers)

@@ -1,4 +1,4 @@
-"""Threads for native code, and waiting for it in a way that can be interrupted: by Ctrl-C, or after a time."""
+"""Threads for native code, and waiting for them in a way that Ctrl-C or a time limit can end."""
 
 from __future__ import annotations
 
@@ -16,17 +16,24 @@ Result = TypeVar("Result")
 
 
 def cores() -> int:
-    """How many processors this process may use."""
+    """The number of processors that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 def in_thread(call: Callable[[], Result], limit: float | None = None) -> Result:
-    """What a call returns, made in a thread of its own.
+    """Make a call in a thread of its own.
 
-    The thread then goes on, and what it works on is its own.
+    After a timeout the thread continues, so it must own what it works on.
+
+    Args:
+        call: The call.
+        limit: The time limit in s; None for none.
+
+    Returns:
+        What the call returns.
 
     Raises:
-        TimeoutError: After `limit` seconds.
+        TimeoutError: The limit is exceeded.
     """
     answer: Future[Result] = Future()
     threading.Thread(target=_answer, args=(call, answer), daemon=True).start()
@@ -34,7 +41,15 @@ def in_thread(call: Callable[[], Result], limit: float | None = None) -> Result:
 
 
 def in_threads(calls: Sequence[Callable[[], Result]], count: int) -> Iterator[Result]:
-    """What calls return, in their order; they are made in some threads, which nothing waits for that ends early."""
+    """Make calls in a few threads.
+
+    Args:
+        calls: The calls.
+        count: The number of threads.
+
+    Yields:
+        What the calls return, in their order. Ending early does not wait for the threads.
+    """
     answers = [Future[Result]() for _ in calls]
     left = deque(zip(calls, answers, strict=True))
 
@@ -53,9 +68,9 @@ def in_threads(calls: Sequence[Callable[[], Result]], count: int) -> Iterator[Re
 
 
 def interruptible(call: Callable[[], Result]) -> Result:
-    """What a call of native code returns; Ctrl-C ends the wait for it.
+    """Make a call of native code that Ctrl-C can interrupt.
 
-    Python hears of Ctrl-C in its main thread only, and only while that runs no native code.
+    Python handles Ctrl-C in the main thread only, and not while that runs native code.
     """
     main = threading.current_thread() is threading.main_thread()
     if not main or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -73,7 +88,7 @@ _idle: list[SimpleQueue[tuple[Callable[[], Any], Future[Any]]]] = []
 
 
 def _hired() -> SimpleQueue[tuple[Callable[[], Any], Future[Any]]]:
-    """The calls that a new thread makes, one after the other."""
+    """A queue of calls that a new thread makes one after the other."""
     calls: SimpleQueue[tuple[Callable[[], Any], Future[Any]]] = SimpleQueue()
 
     def work() -> None:

@@ -1,4 +1,4 @@
-"""One component on plain numbers, without a model around it: in native code or as Python."""
+"""One component on plain numbers, without a model around it, in native code or in Python."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _C_FUNCTION = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, *[ctypes.c_void_p
 
 
 class Trial:
-    """The p, u, x, y of one component, at their defaults and otherwise zero; all numbers in SI."""
+    """The p, u, x and y of one component in SI. Parameters have their defaults; all other numbers are 0."""
 
     def __init__(self, kind: Primitive) -> None:
         self.kind = kind
@@ -51,10 +51,16 @@ class Trial:
         self.p, self.u, self.x, self.y = self.views
 
     def put(self, values: Mapping[str, Any]) -> Trial:
-        """Set parameters, inputs and states by name, and outputs that MuJoCo would set.
+        """Set parameters, inputs and states by name, and outputs that MuJoCo sets in a model.
+
+        Args:
+            values: Values in SI by name.
+
+        Returns:
+            This object.
 
         Raises:
-            KeyError: A name that is not declared.
+            KeyError: A name is not declared.
         """
         for name, value in values.items():
             view = next((v for home, v in zip(self.homes, self.views, strict=True) if name in home), None)
@@ -65,7 +71,7 @@ class Trial:
         return self
 
     def copy(self) -> Trial:
-        """The same numbers in tables of their own."""
+        """A copy with tables of its own."""
         made = Trial.__new__(Trial)
         made.kind, made.homes, made.places = self.kind, self.homes, self.places
         made.arrays = [table.copy() for table in self.arrays]
@@ -73,7 +79,16 @@ class Trial:
         return made
 
     def call(self, stage: str, mode: Mode = "rapid", dt: float = 1e-3) -> bool:
-        """Run start, output, update or reset in place, the last at the time dt; whether it raised."""
+        """Call start, output, update or reset on the tables.
+
+        Args:
+            stage: The name of the function.
+            mode: Native code ("rapid") or plain Python ("normal").
+            dt: The step in s; for reset, the time of the event.
+
+        Returns:
+            Whether it raised an exception.
+        """
         if mode == "rapid":
             kernel, pointers = self._native
             return bool(kernel(STAGES[stage], *pointers, dt))
@@ -93,5 +108,5 @@ class Trial:
 
     @property
     def stages(self) -> list[str]:
-        """Which of start, output, update and reset the component has."""
+        """The functions among start, output, update and reset that the component has."""
         return [stage for stage in STAGES if stage in self.kind.functions]

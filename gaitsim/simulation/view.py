@@ -1,4 +1,4 @@
-"""The p, u, x, y of a component in Python: named fields over the same tables that native code uses."""
+"""The p, u, x and y of a component in Python: named fields over the tables that native code uses too."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from gaitsim.compiler.program import Floats, Program
 
 
 class View:
-    """Fields of one part in one table: numbers, or arrays for states with a size and for series."""
+    """The fields of one part in one table: numbers, or arrays for states with a size and for series."""
 
     __slots__ = ("_places", "_table")
 
@@ -31,6 +31,6 @@ class View:
 
 
 def views(program: Program, part: int, p: Floats, u: Floats, x: Floats, y: Floats) -> tuple[View, View, View, View]:
-    """The four views of a part."""
+    """The views of a part on the tables p, u, x and y."""
     places = program.field_places[part]
     return View(p, places[0]), View(u, places[1]), View(x, places[2]), View(y, places[3])
