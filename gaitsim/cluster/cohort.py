@@ -1,4 +1,4 @@
-"""The rows of a cohort, each evaluated by itself: simulated, and tuned again for a while if it does not complete."""
+"""The rows of a cohort. Each is simulated alone, and tuned again for a limited time if it does not complete."""
 
 from __future__ import annotations
 
@@ -23,10 +23,11 @@ from gaitsim.text.document import MappingNode
 
 @dataclass(frozen=True)
 class RowVerdict(Verdict):
-    """What was found of a row.
+    """The result of a row.
 
-    evaluations: that its search took; 0 if there was none. values: the tuned values that the search found, in SI by
-    address; none if the shipped ones are as good.
+    Attributes:
+        evaluations: The number of evaluations of its search; 0 without a search.
+        values: The tuned values that the search found, in SI by address; empty if the shipped ones are as good.
     """
 
     evaluations: int = 0
@@ -35,7 +36,7 @@ class RowVerdict(Verdict):
 
 @dataclass(frozen=True)
 class Rows:
-    """The rows of a bundle. A candidate is the number of one, from 0."""
+    """The rows of a bundle. A candidate is the number of a row, from 0."""
 
     cohort: Cohort
     document: MappingNode
@@ -45,7 +46,7 @@ class Rows:
     mode: Mode
 
     def verdict(self, x: Sequence[float]) -> RowVerdict:
-        """What becomes of a row. One that is invalid fails, with its reason."""
+        """Simulate a row. An invalid row fails, with the reason."""
         try:
             simulator = self._simulator(self.cohort.rows[int(x[0])])
         except (InvalidSpec, InvalidComponent) as error:
@@ -56,7 +57,12 @@ class Rows:
         return self._retuned(simulator, outcome)
 
     def _simulator(self, row: Row) -> Simulator:
-        """Errors: InvalidSpec, InvalidComponent."""
+        """Make the simulator of a row.
+
+        Raises:
+            InvalidSpec: The row is invalid.
+            InvalidComponent: A component file breaks the contract.
+        """
         model = resolve(row.document(self.document), self.library, self.name).started_at(self.starts)
         simulator = Simulator(model, self.mode)
         if doubts := start_doubts(simulator).impossible:
@@ -64,7 +70,7 @@ class Rows:
         return simulator
 
     def _retuned(self, simulator: Simulator, first: Outcome) -> RowVerdict:
-        """Search from the start until a generation has a candidate that completes, or the evaluations are used up."""
+        """Search from the start until a candidate of a generation completes, or the evaluations are used up."""
         section, most = optimize_section(self.document), self.cohort.retune
         problem = problem_of(simulator.model, section.spread_factor)
         algorithm = ALGORITHMS[section.algorithm].make(problem, self.cohort.seed, section.population)
@@ -84,7 +90,13 @@ class Rows:
 
 
 def bundle_rows(bundle: Bundle, mode: Mode) -> Rows:
-    """The rows of a bundle's cohort. Errors: InvalidSpec, InvalidComponent, BadResult."""
+    """The rows of a bundle's cohort.
+
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
+        BadResult: The cohort cannot be read.
+    """
     document, library, starts = bundle.document(), bundle.library(), bundle.starts()
     # Components are compiled now, so that workers that are copies of this process need not do it again.
     Simulator(resolve(document, library, bundle.name).started_at(starts), mode)
@@ -92,7 +104,7 @@ def bundle_rows(bundle: Bundle, mode: Mode) -> Rows:
 
 
 def _rank(outcome: Outcome) -> tuple[bool, float]:
-    """The lower the better: what completes is before what does not."""
+    """The rank of an outcome; lower is better. Completed runs come before all others."""
     return outcome.status != "completed", _cost(outcome)
 
 

@@ -1,4 +1,4 @@
-"""Connects to a Dask scheduler that already runs."""
+"""Connections to a running Dask scheduler."""
 
 from __future__ import annotations
 
@@ -19,10 +19,18 @@ _ADDRESS = re.compile(r"(?:(?P<scheme>tcp|tls)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[
 
 
 def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Callable[[str], None]) -> Any:
-    """A client of a scheduler that already runs.
+    """Connect to a scheduler.
+
+    Args:
+        scheduler: Its address, such as tcp://127.0.0.1:8786.
+        scheduler_file: A file that it wrote, instead of the address.
+        say: Receives lines for the user.
+
+    Returns:
+        The Dask client.
 
     Raises:
-        ClusterError: The cluster fails or cannot be reached.
+        ClusterError: The scheduler cannot be reached, or has no workers.
     """
     from distributed import Client
 
@@ -45,10 +53,10 @@ def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Calla
 
 
 def _address_in(file: Path) -> str:
-    """The address in a scheduler file.
+    """Read the address in a scheduler file.
 
     Raises:
-        ClusterError: The cluster fails or cannot be reached.
+        ClusterError: The file cannot be read.
     """
     move = f"start a scheduler that writes it: dask scheduler --scheduler-file {file}"
     if not file.is_file():
@@ -60,10 +68,10 @@ def _address_in(file: Path) -> str:
 
 
 def _parts(address: str, place: str) -> tuple[str, str, int]:
-    """Scheme, host and port of an address.
+    """Split an address into scheme, host and port.
 
     Raises:
-        ClusterError: The cluster fails or cannot be reached.
+        ClusterError: It is not an address.
     """
     found = _ADDRESS.fullmatch(address)
     if found is None or not 0 < int(found["port"]) < 65536:
@@ -74,10 +82,10 @@ def _parts(address: str, place: str) -> tuple[str, str, int]:
 
 
 def _check_answer(host: str, port: int, place: str) -> None:
-    """Someone listens there. Dask would try again and again.
+    """Check that something listens at an address. Dask itself would try again for a long time.
 
     Raises:
-        ClusterError: The cluster fails or cannot be reached.
+        ClusterError: Nothing listens.
     """
     try:
         socket.create_connection((host.strip("[]"), port), timeout=_PATIENCE).close()
@@ -88,10 +96,10 @@ def _check_answer(host: str, port: int, place: str) -> None:
 
 
 def _check_protocol(address: str, place: str) -> None:
-    """Who listens speaks Dask. A client that finds out by itself may never come back.
+    """Check that a Dask scheduler listens. A Dask client may wait forever for anything else.
 
     Raises:
-        ClusterError: The cluster fails or cannot be reached.
+        ClusterError: Something else listens.
     """
     from distributed import Security
     from distributed.comm import connect
@@ -117,7 +125,7 @@ def _loopback(host: str) -> bool:
 
 
 def _quiet() -> None:
-    """Workers come and go; what matters is said by us."""
+    """Silence Dask's log. Workers that come and go are reported by gaitsim."""
     for name in ("distributed", *logging.root.manager.loggerDict):
         if name.partition(".")[0] == "distributed":
             logging.getLogger(name).setLevel(logging.CRITICAL + 1)

@@ -1,4 +1,4 @@
-"""Several episodes for each candidate: other seeds, pushes or slopes, each a model of its own, and one score."""
+"""Several episodes for each candidate, such as other seeds, pushes or slopes: a model for each, and one score."""
 
 from __future__ import annotations
 
@@ -22,13 +22,20 @@ from gaitsim.text.document import MappingNode
 
 @dataclass(frozen=True)
 class Episodes:
-    """The simulators of a candidate's episodes, and how their scores become one."""
+    """The simulators of a candidate's episodes, and the way to combine their scores."""
 
     simulators: tuple[Simulator, ...]
     combine: str = "mean"
 
     def verdict(self, x: Sequence[float]) -> Verdict:
-        """What the journal keeps of a candidate: metrics of the first episode, and each episode's score."""
+        """Simulate all episodes of a candidate.
+
+        Args:
+            x: The values of the tuned numbers, in SI.
+
+        Returns:
+            The metrics of the first episode, and the score of each.
+        """
         outcomes = [simulator.run(x) for simulator in self.simulators]
         first = outcomes[0]
         metrics = {n: v if math.isfinite(v) else None for n, v in first.metrics.items()}
@@ -48,7 +55,7 @@ class Episodes:
 
 
 def _ended(outcomes: Sequence[Outcome]) -> tuple[str, str]:
-    """How a candidate ended: as the first episode that failed, else as the first that was stopped."""
+    """Status and reason of a candidate: those of the first episode that failed, else of the first that was stopped."""
     for status in ("failed", "stopped"):
         for i, outcome in enumerate(outcomes, start=1):
             if outcome.status == status:
@@ -62,7 +69,7 @@ def bundle_episodes(bundle: Bundle, mode: Mode) -> Episodes:
     Raises:
         InvalidSpec: The spec breaks a rule.
         InvalidComponent: A component file breaks the contract.
-        BadResult: The folder is not a result, or the result is damaged.
+        BadResult: The tuned values of the bundle cannot be read.
     """
     document, starts = bundle.document(), bundle.starts()
     models = [model.started_at(starts) for model in episode_models(document, bundle.library(), bundle.name)]
@@ -70,10 +77,10 @@ def bundle_episodes(bundle: Bundle, mode: Mode) -> Episodes:
 
 
 def episode_models(document: MappingNode, library: Library, name: str) -> list[Model]:
-    """The model of each episode; of the spec as it is, if it has none.
+    """The model of each episode; the model of the spec if it has no episodes.
 
     Raises:
-        InvalidSpec: Also for an episode that changes what is tuned.
+        InvalidSpec: The spec breaks a rule, or an episode changes what is tuned.
     """
     rows = episodes(document)
     models = [resolve(row.document, library, name) for row in rows]
@@ -90,7 +97,7 @@ def episode_models(document: MappingNode, library: Library, name: str) -> list[M
 
 
 def _change(before: Sequence[Free], after: Sequence[Free]) -> str:
-    """How what is tuned differs, in words; empty if it is the same."""
+    """The difference in what is tuned, in words; empty if there is none."""
     old, new = ({f.address: (f.low, f.high, f.start, f.spread) for f in free} for free in (before, after))
     lost, more = [a for a in old if a not in new], [a for a in new if a not in old]
     if lost:

@@ -1,4 +1,4 @@
-"""Evaluates candidates of a bundle in this process; workers of a cluster do the same."""
+"""Evaluation of a bundle's candidates in this process. Workers of a cluster do the same."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ from gaitsim.simulation.run import Mode
 
 @dataclass(frozen=True)
 class EpisodeRunner:
-    """The episodes of a candidate, or the rows of a cohort, and the folder where their spec and components lie."""
+    """The episodes of a candidate or the rows of a cohort, and the folder of their spec and components."""
 
     episodes: Episodes | Rows
     folder: Path
 
     def verdict(self, x: Sequence[float]) -> Verdict:
-        """What the journal keeps of a candidate; its reason names files within the bundle, wherever that lies."""
+        """Evaluate a candidate. Reasons of failures name files relative to the bundle."""
         found = self.episodes.verdict(x)
         reason = found.reason
         for folder in {str(self.folder), shown(self.folder)} - {"."}:
@@ -37,7 +37,7 @@ _runners: dict[tuple[str, str], EpisodeRunner] = {}
 
 
 def runner_of(bundle: Bundle, mode: Mode) -> EpisodeRunner:
-    """The runner of a bundle, made from the bundle's own texts and nothing else.
+    """The runner of a bundle, made from the texts of the bundle only. It is kept for the next call.
 
     Raises:
         InvalidSpec: The spec breaks a rule.
@@ -51,12 +51,12 @@ def runner_of(bundle: Bundle, mode: Mode) -> EpisodeRunner:
 
 
 def forget(bundle: Bundle, mode: Mode) -> None:
-    """Make the runner anew next time: a thread that does not come back still works on this one."""
+    """Drop the runner of a bundle, because a thread that did not return still uses it."""
     _runners.pop((bundle.digest, mode), None)
 
 
 class Serial:
-    """Evaluates one candidate after the other, in this process."""
+    """Evaluates candidates one after the other in this process."""
 
     def __init__(self, runner: EpisodeRunner) -> None:
         self._runner = runner
@@ -68,4 +68,4 @@ class Serial:
             yield Evaluation(candidate, found), time.perf_counter() - began, socket.gethostname()
 
     def close(self) -> None:
-        """There is nothing to close."""
+        """Do nothing: there is nothing to close."""

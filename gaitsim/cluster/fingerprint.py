@@ -1,4 +1,4 @@
-"""What must be the same on every worker: gaitsim's own source and the libraries below it."""
+"""What must be equal on every worker: gaitsim's source, Python, and the libraries that results depend on."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pathlib import Path
 
 @cache
 def fingerprint() -> dict[str, str]:
-    """Versions, and a digest of all of gaitsim's source."""
+    """The versions of Python and libraries, and a digest of gaitsim's source, by name."""
     import gaitsim
 
     whole = hashlib.sha256()
@@ -26,7 +26,7 @@ def fingerprint() -> dict[str, str]:
 
 
 def differences(ours: dict[str, str], theirs: dict[str, str]) -> str:
-    """What differs, in words; empty if nothing does."""
+    """The differences of two fingerprints in words; empty if they are equal."""
     if not theirs:
         return f"no gaitsim, and this process has {ours['gaitsim']}"
     return ", ".join(

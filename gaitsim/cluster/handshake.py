@@ -1,10 +1,12 @@
-"""Asked of every worker before anything else; sent by value, so that any gaitsim, or none, can answer."""
+"""The first request to every worker. The function is sent by value, so that a worker with any version of gaitsim, or
+none, can answer.
+"""
 
 from __future__ import annotations
 
 
 def installed() -> dict[str, str]:
-    """The worker's fingerprint; empty if it has no gaitsim, or one that knows no fingerprint."""
+    """The fingerprint of the worker; empty if it has no gaitsim, or a version without fingerprints."""
     try:
         from gaitsim.cluster.fingerprint import fingerprint
     except ImportError:

@@ -1,4 +1,4 @@
-"""Evaluates candidates in processes of this machine, over pipes that no one else can reach."""
+"""Evaluation in processes of this machine, over pipes that no other process can open."""
 
 from __future__ import annotations
 
@@ -22,7 +22,15 @@ _TRIES = 3  # a candidate whose workers died so often is the cause; one that die
 
 
 class Local:
-    """An evaluator on some processes, each with one candidate at a time."""
+    """An evaluator with several worker processes.
+
+    Args:
+        bundle: What is evaluated.
+        mode: Native code ("rapid") or plain Python ("normal").
+        workers: The number of processes.
+        patience: Time limits.
+        method: How processes start; see `multiprocessing`.
+    """
 
     def __init__(
         self, bundle: Bundle, mode: Mode, workers: int, patience: Patience | None = None, method: str = START_METHOD
@@ -48,7 +56,7 @@ class Local:
         return self._found(left)
 
     def close(self) -> None:
-        """End the workers, whatever they are doing."""
+        """End the workers at once."""
         for worker in self._workers:
             worker.end()
         self._workers.clear()
@@ -88,7 +96,7 @@ class Local:
             self._give(left)
 
     def _give(self, left: deque[Candidate]) -> None:
-        """Hand out candidates, in their order: to each worker one, and a little more where they are short."""
+        """Hand out candidates in their order: one to each worker, and a few more while evaluations are short."""
         ahead = min(1 + self._pace.fitting(_AHEAD), _MOST_AHEAD, 1 + len(left) // len(self._workers)) if left else 0
         for worker in self._workers:
             size = min(ahead - len(worker.given), len(left))
@@ -96,7 +104,7 @@ class Local:
                 worker.give([left.popleft() for _ in range(size)])
 
     def _ready(self) -> list[Worker]:
-        """Workers that have an answer, or are dead; none if one is overdue."""
+        """The workers that have an answer or are dead; none if a worker exceeds its time."""
         busy = {worker.answers: worker for worker in self._workers if worker.given}
         patience = min(worker.since for worker in busy.values()) + self._pace.limit - time.monotonic()
         return [busy[connection] for connection in wait([*busy], max(0.0, patience))]  # type: ignore[index]
@@ -106,7 +114,11 @@ class Local:
         return [worker for worker in self._workers if worker.given and now - worker.since >= self._pace.limit]
 
     def _replaced(self, worker: Worker, left: deque[Candidate]) -> Candidate:
-        """End a worker and start another; the candidate that it was at. Its others are still to be done."""
+        """End a worker and start another one.
+
+        Returns:
+            The candidate that the worker was evaluating. Its other candidates are put back.
+        """
         culprit, *others = worker.given
         left.extendleft(reversed(others))
         worker.end()

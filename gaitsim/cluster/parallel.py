@@ -1,4 +1,4 @@
-"""Evaluates candidates on Dask workers: sized tasks, lost workers, culprits."""
+"""Evaluation on Dask workers, with tasks of suitable length. Candidates that make workers die are found."""
 
 from __future__ import annotations
 
@@ -28,11 +28,11 @@ Chunked = tuple[Candidate, ...]
 
 
 class _ResultLost(Exception):
-    """A worker finished a task, and died before its result was fetched."""
+    """A worker finished a task and died before its result was fetched."""
 
 
 class Parallel:
-    """An evaluator on the workers of a client."""
+    """An evaluator on the workers of a Dask client."""
 
     def __init__(self, client: Any, bundle: Bundle, mode: Mode, patience: Patience | None = None) -> None:
         self._client, self._mode, self._digest = client, mode, bundle.digest
@@ -50,7 +50,7 @@ class Parallel:
             raise
 
     def close(self) -> None:
-        """Take the model from the workers, and end those that are ours."""
+        """Remove the model from the workers, and end workers that gaitsim started."""
         cluster = self._client.cluster
         if self._client.status == "running":
             with contextlib.suppress(OSError, ValueError):
@@ -74,7 +74,7 @@ class Parallel:
                 yield killed(candidate)
 
     def _found(self, waiting: dict[Any, Chunked], finished: Queue[Any], suspects: list[Candidate]) -> Iterator[Found]:
-        """What chunks that were submitted give; whose workers died is added to the suspects."""
+        """The results of submitted chunks. Candidates whose workers died are added to the suspects."""
         slow: set[Candidate] = set()
         while waiting:
             future = self._next(finished)
@@ -104,7 +104,7 @@ class Parallel:
         """The next future that is done.
 
         Raises:
-            ClusterError: No worker has been there for long.
+            ClusterError: There was no worker for a long time.
         """
         silent_since = None
         while True:
@@ -127,9 +127,12 @@ class Parallel:
             raise self._lost(error) from error
 
     def _done(self, future: Any) -> Done | None:
-        """What a finished task says; None if its workers died.
+        """The result of a finished task; None if its workers died.
 
-        Errors: _ResultLost; ClusterError; RuntimeError for a bug of ours.
+        Raises:
+            _ResultLost: The worker died before its result was fetched.
+            ClusterError: The worker refused the task.
+            RuntimeError: gaitsim has a bug.
         """
         if future.status == "lost":
             raise _ResultLost
@@ -148,7 +151,7 @@ class Parallel:
         raise self._lost(error)
 
     def _restart(self, worker: str) -> None:
-        """End a worker in which a thread does not come back; one without a nanny goes on beside it."""
+        """End a worker with a thread that does not return. A worker without a nanny continues with that thread."""
         with contextlib.suppress(OSError, ValueError, TimeoutError):
             self._client.restart_workers([worker], raise_for_error=False)
 
@@ -170,7 +173,7 @@ class Parallel:
         return future
 
     def _check_workers(self) -> None:
-        """Every worker present must have our versions; the function travels by value."""
+        """Check that every worker has our versions. The function that asks is sent by value."""
         import cloudpickle
 
         from gaitsim.cluster import handshake
@@ -194,7 +197,11 @@ class Parallel:
 
 
 def _gathered(future: Any) -> Done:
-    """The result of a finished task. Errors: _ResultLost."""
+    """Fetch the result of a finished task.
+
+    Raises:
+        _ResultLost: The worker died before.
+    """
     try:
         done: Done = future.result(timeout=_GATHER_SECONDS)
     except (TimeoutError, KilledWorker) as error:

@@ -1,4 +1,4 @@
-"""How long a candidate may take, and what is said of one that was given up."""
+"""Time limits of candidates, and the verdict of a candidate that exceeded one."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ Found = tuple[Evaluation, float, str]  # with its seconds, and the host
 
 @dataclass(frozen=True)
 class Patience:
-    """Seconds until something is given up. They are long: no score may depend on how fast a machine is."""
+    """Time limits in seconds. They are long, because no score may depend on the speed of a machine."""
 
     first: float = 3600.0  # for a candidate, while none is known
     least: float = 60.0  # for a candidate, and so many times the mean of the others
@@ -21,7 +21,7 @@ class Patience:
 
 @dataclass
 class Pace:
-    """The running mean of the seconds of one evaluation, and what follows from it."""
+    """The running mean of the time of one evaluation."""
 
     patience: Patience
     mean: float | None = None
@@ -31,21 +31,21 @@ class Pace:
 
     @property
     def limit(self) -> float:
-        """How long one candidate may take, in seconds."""
+        """The time limit of one candidate, in s."""
         return self.patience.first if self.mean is None else self.patience.least + self.patience.times * self.mean
 
     def fitting(self, seconds: float) -> int:
-        """How many evaluations are done in a time; 0 while it is not known."""
+        """The number of evaluations that fit into a time in s; 0 while the mean is unknown."""
         return 0 if self.mean is None else int(seconds / max(self.mean, 1e-6))
 
 
 def killed(candidate: Candidate) -> Found:
-    """A candidate whose workers died of it."""
+    """The result of a candidate that made its workers die."""
     return _given_up(candidate, "killed", "this candidate killed every worker that tried it")
 
 
 def too_late(candidate: Candidate) -> Found:
-    """A candidate that did not come back."""
+    """The result of a candidate that exceeded its time."""
     return _given_up(candidate, "timeout", "this candidate was not done after many times what the others took")
 
 

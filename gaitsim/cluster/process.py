@@ -1,4 +1,4 @@
-"""A worker process of this machine: candidates come in over a pipe, verdicts go out over another."""
+"""A worker process of this machine: candidates arrive through a pipe, verdicts leave through another."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ Answer = tuple[Verdict | str, float]  # a verdict, or the traceback of a bug; an
 
 
 class Lifeline:
-    """Open for as long as the driver lives: whoever reads from it hears the driver's end, however that came."""
+    """A pipe that is open while the driver lives. Its readers notice the end of the driver, whatever its cause."""
 
     def __init__(self, method: str) -> None:
         self.held, self.kept = get_context(method).Pipe(duplex=False)
@@ -43,7 +43,7 @@ class Lifeline:
 
 @dataclass
 class Worker:
-    """A process, and the candidates that it has been given and has not answered."""
+    """A process, and the candidates that it was given and has not answered."""
 
     process: Any
     tasks: Connection
@@ -52,7 +52,7 @@ class Worker:
     since: float = 0.0  # when it began the first of them
 
     def give(self, candidates: Sequence[Candidate]) -> None:
-        """Send candidates; to a worker that is dead too, which is seen when its answer is waited for."""
+        """Send candidates. A dead worker is noticed when its answer is awaited."""
         if not self.given:
             self.since = time.monotonic()
         self.given += candidates
@@ -60,7 +60,7 @@ class Worker:
             self.tasks.send(candidates)
 
     def answer(self) -> tuple[Candidate, Answer]:
-        """The next answer.
+        """Wait for the next answer.
 
         Raises:
             EOFError: The worker died.
@@ -71,7 +71,7 @@ class Worker:
         return self.given.popleft(), answer
 
     def end(self) -> None:
-        """End the process, whatever it is doing."""
+        """End the process at once."""
         self.process.kill()
         self.process.join()
         self.process.close()
@@ -80,10 +80,10 @@ class Worker:
 
 
 def started(bundle: Bundle, mode: Mode, lifeline: Lifeline, method: str) -> Worker:
-    """A new worker.
+    """Start a worker.
 
     Raises:
-        ClusterError: The cluster fails or cannot be reached.
+        ClusterError: No process can be started.
     """
     context: Any = get_context(method)
     tasks_out, tasks = context.Pipe(duplex=False)
@@ -108,7 +108,7 @@ def started(bundle: Bundle, mode: Mode, lifeline: Lifeline, method: str) -> Work
 def _serve(
     bundle: Bundle, mode: Mode, tasks: Connection, answers: Connection, held: Connection, kept: Connection
 ) -> None:
-    """What a worker does until it is ended."""
+    """The main loop of a worker process."""
     kept.close()  # or the lifeline of the others would never end
     threading.Thread(target=_end_with_driver, args=(held,), daemon=True).start()
     # Ctrl-C reaches every process of a terminal; the driver hears it, and ends its workers.

@@ -1,4 +1,6 @@
-"""timings.csv: how long each evaluation took and where; apart from the journal, which is the same everywhere."""
+"""timings.csv: the time and the host of each evaluation. They are not part of the journal, which is the same
+everywhere.
+"""
 
 from __future__ import annotations
 
@@ -8,7 +10,7 @@ from gaitsim.optimization.evaluation import Candidate
 
 
 class Timings:
-    """Appends a line for each evaluation made in this session."""
+    """Appends a line for each evaluation of this session."""
 
     def __init__(self, folder: Path) -> None:
         path = folder / "timings.csv"

@@ -1,4 +1,4 @@
-"""What is said when there is no one to evaluate candidates."""
+"""The error of a cluster without workers."""
 
 from __future__ import annotations
 

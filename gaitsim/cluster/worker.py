@@ -1,4 +1,4 @@
-"""What runs on a worker: chunks of candidates in, verdicts out; nothing is raised that could be said."""
+"""The functions that Dask workers run: chunks of candidates in, verdicts out. Errors are returned instead of raised."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _bundles: dict[str, Bundle] = {}
 
 
 class BundlePlugin(WorkerPlugin):  # type: ignore[misc]
-    """Brings a bundle to every worker: those present, restarted ones and late ones."""
+    """Sends a bundle to every worker, also to restarted and late ones."""
 
     def __init__(self, bundle: Bundle) -> None:
         self.bundle = bundle
@@ -36,7 +36,7 @@ class BundlePlugin(WorkerPlugin):  # type: ignore[misc]
 
 @dataclass(frozen=True)
 class Chunk:
-    """Some candidates of one bundle, what a worker must be to evaluate them, and how long it may take over each."""
+    """Candidates of one bundle, the fingerprint that the worker must have, and the time limit of each candidate."""
 
     digest: str
     mode: Mode
@@ -47,7 +47,9 @@ class Chunk:
 
 @dataclass(frozen=True)
 class Done:
-    """What a worker found: evaluations with their seconds; whether the next one took too long; or what is wrong."""
+    """The answer of a worker: evaluations with their times, whether the next one exceeded its time, or what is
+    wrong.
+    """
 
     worker: str
     host: str
@@ -58,7 +60,7 @@ class Done:
 
 
 def evaluate_chunk(chunk: Chunk) -> Done:
-    """Evaluate the candidates of a chunk, one after the other, until one takes too long."""
+    """Evaluate the candidates of a chunk one after the other, until one exceeds its time."""
     worker, host = str(get_worker().address), socket.gethostname()
     wrong = differences(chunk.needs, fingerprint())
     if wrong:

@@ -1,4 +1,4 @@
-"""A trajectory as CSV: time and every signal, each with its unit in the heading."""
+"""Trajectories as CSV: time and every signal, with units in the heading."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from gaitsim.simulation.outcome import Trajectory
 
 
 def write_csv(path: Path, trajectory: Trajectory) -> None:
-    """Write `time [s],guide.position [m],...`; numbers in SI, exactly.
+    """Write `time [s],guide.position [m],...` with exact numbers in SI.
 
     Raises:
-        OSError: The file cannot be read or written.
+        OSError: The file cannot be written.
     """
     named = [f"{s} [{u}]" for s, u in zip(trajectory.signals, trajectory.units, strict=True)]
     write_table(path, ",".join(["time [s]", *named]) + "\n", trajectory, ",")

@@ -1,4 +1,4 @@
-"""The formats that signals are exported in: one entry each in `FORMATS`."""
+"""The export formats of signals, with one entry each in `FORMATS`."""
 
 from __future__ import annotations
 
@@ -15,12 +15,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Export:
-    """What is exported of a run.
+    """The run to export.
 
     Attributes:
-        name: The model's.
+        name: The name of the model.
         trajectory: Its signals in SI.
-        dataset: Makes the same as labelled arrays, with what is known of the run.
+        dataset: Makes the same as labelled arrays with metadata of the run.
     """
 
     name: str
@@ -30,7 +30,7 @@ class Export:
 
 @dataclass(frozen=True)
 class Format:
-    """How an export is written, and of whom; `ending` names it and ends its files."""
+    """An export format; `ending` is its name and the ending of its files."""
 
     ending: str
     words: str

@@ -1,4 +1,4 @@
-"""A trajectory as labelled arrays with units (xarray), and those as netCDF."""
+"""Trajectories as labelled arrays with units (xarray), and as netCDF."""
 
 from __future__ import annotations
 
@@ -15,10 +15,15 @@ if TYPE_CHECKING:
 
 
 def labelled(trajectory: Trajectory, signals: Sequence[Signal], about: Mapping[str, Any]) -> xarray.Dataset:
-    """A dataset with a variable for each signal, named by its address, over the coordinate `time`.
+    """Make a dataset with a variable for each signal, named by its address, over the coordinate `time`.
 
-    Attributes of a variable: `units` and `long_name`, which plots of xarray use, and `flag_meanings`
-    with `flag_values` for a state with named levels (CF conventions). `about` describes the whole.
+    Variables have the attributes `units` and `long_name`, which plots of xarray use, and `flag_meanings` with
+    `flag_values` for a state with named levels (CF conventions).
+
+    Args:
+        trajectory: The values, in SI.
+        signals: Their declarations.
+        about: Attributes of the dataset.
     """
     import xarray
 
@@ -36,7 +41,7 @@ def write_netcdf(path: Path, data: xarray.Dataset) -> None:
     """Write a dataset as netCDF-4.
 
     Raises:
-        OSError: The file cannot be read or written.
+        OSError: The file cannot be written.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     with whole(path) as draft:

@@ -1,4 +1,4 @@
-"""Numbers as text that reads back as the same numbers, written as a whole or not at all."""
+"""Tables of numbers as text that reads back exactly; a file is complete or absent."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ _BLOCK = 10_000  # rows that are text at a time
 
 
 def write_table(path: Path, head: str, trajectory: Trajectory, separator: str) -> None:
-    """A heading, then a row for each instant: time first.
+    """Write a heading and a row for each instant, with the time first.
 
     Raises:
-        OSError: With nothing left behind.
+        OSError: Writing failed. No file is left behind.
     """
     path.parent.mkdir(parents=True, exist_ok=True)
     with whole(path) as draft, draft.open("w", encoding="utf-8", newline="\n") as file:

@@ -1,4 +1,4 @@
-"""A trajectory as OpenSim's storage file (.sto), which its TimeSeriesTable and its plotter read."""
+"""Trajectories as OpenSim's storage file (.sto), which its TimeSeriesTable and its plotter read."""
 
 from __future__ import annotations
 
@@ -9,12 +9,12 @@ from gaitsim.simulation.outcome import Trajectory
 
 
 def write_sto(path: Path, trajectory: Trajectory, name: str) -> None:
-    """Write signals under their addresses; numbers in SI (angles in radians), exactly.
+    """Write signals under their addresses, with exact numbers in SI (angles in radians).
 
     The header has a key `unit.ADDRESS` for each column, which OpenSim keeps as metadata.
 
     Raises:
-        OSError: The file cannot be read or written.
+        OSError: The file cannot be written.
     """
     units = [f"unit.{s}={u}" for s, u in zip(trajectory.signals, trajectory.units, strict=True)]
     head = [

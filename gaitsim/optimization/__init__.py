@@ -1,1 +1,1 @@
-"""Search over vectors and scores; nothing here knows what is being tuned."""
+"""Search over vectors and scores. This package does not know what is tuned."""

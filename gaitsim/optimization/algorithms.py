@@ -1,4 +1,4 @@
-"""Search algorithms by name, each from a library, behind ask and tell: one entry each in `ALGORITHMS`."""
+"""Search algorithms by name, with one entry each in `ALGORITHMS`. All have the interface ask and tell."""
 
 from __future__ import annotations
 
@@ -13,11 +13,13 @@ if TYPE_CHECKING:
 
 
 class Algorithm(Protocol):
-    """Asks for vectors (divided by spreads), is told their costs, and says in words when it stops."""
+    """A search algorithm. It proposes vectors (divided by spreads), receives their costs, and may stop with a
+    reason.
+    """
 
     @property
     def population(self) -> int:
-        """Candidates a generation."""
+        """The number of candidates per generation."""
 
     def ask(self) -> list[Vector]: ...
 
@@ -31,9 +33,10 @@ class Entry:
     """An algorithm that a spec or `--algorithm` can name.
 
     Attributes:
-        factory: Makes it of a problem, a seed and the candidates a generation (None: its own choice).
-        citations: What a paper cites that used it: keys of library/references.bib.
-        extra: The extra of gaitsim that its library is in; empty if it is always installed.
+        factory: Makes the algorithm from a problem, a seed and the number of candidates per generation (None: its own
+            default).
+        citations: Keys of library/references.bib that a paper should cite.
+        extra: The extra of gaitsim with its library; empty if the library is always installed.
     """
 
     name: str
@@ -42,7 +45,12 @@ class Entry:
     extra: str = ""
 
     def make(self, problem: Problem, seed: int, population: int | None) -> Algorithm:
-        """The algorithm at its start.
+        """Make the algorithm at its start.
+
+        Args:
+            problem: The problem.
+            seed: The seed.
+            population: The number of candidates per generation; None for the algorithm's default.
 
         Raises:
             Usage: Its library is not installed.
@@ -62,7 +70,7 @@ def _cma_es(problem: Problem, seed: int, population: int | None) -> Algorithm:
 
 
 def _pymoo(kind: str) -> Callable[[Problem, int, int | None], Algorithm]:
-    """One of pymoo's algorithms by the name of its class."""
+    """The factory of one of pymoo's algorithms, given the name of its class."""
 
     def factory(problem: Problem, seed: int, population: int | None) -> Algorithm:
         from gaitsim.optimization.populations import Pymoo

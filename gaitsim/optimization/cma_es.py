@@ -1,4 +1,4 @@
-"""CMA-ES by pycma, behind ask and tell."""
+"""CMA-ES by pycma."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _REASONS = {
 
 @contextmanager
 def _absent(*modules: str) -> Iterator[None]:
-    """Within, these cannot be imported. pycma asks for them in passing and does without; they take a second."""
+    """Make modules impossible to import within the block. pycma imports them without need, which takes a second."""
     before = {name: sys.modules[name] for name in modules if name in sys.modules}
     sys.modules.update(dict.fromkeys(modules))  # type: ignore[arg-type]
     try:
@@ -44,7 +44,7 @@ def _absent(*modules: str) -> Iterator[None]:
 
 
 class CmaEs:
-    """CMA-ES by pycma, drawing from a stream of its own."""
+    """CMA-ES by pycma, with a random stream of its own."""
 
     def __init__(self, problem: Problem, seed: int, population: int | None) -> None:
         with _absent("matplotlib", "scipy.stats"):

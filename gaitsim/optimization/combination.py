@@ -7,10 +7,15 @@ from collections.abc import Sequence
 
 
 def combined(scores: Sequence[float | None], how: str) -> float | None:
-    """The score of a candidate: `mean`, `worst`, or `quantile Q` of its episodes' costs.
+    """Combine the scores of a candidate's episodes.
 
-    None if an episode has none: a candidate that fails anywhere has failed. A quantile between two
-    costs lies on the straight line between them; quantile 1 is the worst.
+    Args:
+        scores: The cost of each episode; None if it has none.
+        how: `mean`, `worst`, or `quantile Q`. Quantiles between two costs are interpolated linearly; quantile 1 is the
+            worst.
+
+    Returns:
+        The score; None if an episode has none, because a candidate that fails in one episode fails.
     """
     costs = sorted(score for score in scores if score is not None)
     if len(costs) < len(scores):

@@ -1,4 +1,4 @@
-"""Neighbours of a problem's start: every number a little different, by chance that anyone can repeat."""
+"""Draws around the start of a problem: every number is changed a little, by reproducible random numbers."""
 
 from __future__ import annotations
 
@@ -11,11 +11,12 @@ from gaitsim.optimization.problem import Problem
 
 @dataclass(frozen=True)
 class Draws:
-    """So many draws: each multiplies every number by 1 + uniform(-within, within), kept inside its bounds.
+    """Random draws. Each multiplies every number by 1 + uniform(-within, within) and keeps it within its bounds.
+
+    Draw k, from 1, depends on seed and k only. A larger share moves the same numbers in the same direction, further.
 
     Attributes:
-        within: A share, 0.01 for 1 %. Draw k, from 1, depends on seed and k only, not on how many there are; a wider
-            share moves the same numbers the same way, further.
+        within: The largest relative change: 0.01 for 1 %.
     """
 
     count: int

@@ -1,4 +1,4 @@
-"""One evaluated candidate: a line of the journal."""
+"""An evaluated candidate, and its line in the journal."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _DIGEST_AT_END = re.compile(_DIGEST.encode() + rb'[0-9a-f]{16}"}')
 
 @dataclass(frozen=True)
 class Candidate:
-    """A vector to be evaluated, and its place in the search. Generation 0 is the start."""
+    """A vector to evaluate, and its place in the search. Generation 0 is the start."""
 
     generation: int
     index: int
@@ -28,16 +28,16 @@ class Candidate:
 
     @property
     def name(self) -> str:
-        """As `--candidate` takes it: 12:4."""
+        """The name for `--candidate`, such as 12:4."""
         return f"{self.generation}:{self.index}"
 
 
 @dataclass(frozen=True)
 class Verdict:
-    """What an evaluation found: status as of a run, or `killed` or `timeout`.
+    """The result of an evaluation. Its status is that of a run, or `killed` or `timeout`.
 
-    With several episodes: seconds and steps of all together, metrics of the first, and of each its
-    status, score and steps.
+    With several episodes, seconds and steps are sums, metrics are those of the first episode, and `episodes` has
+    status, score and steps of each.
     """
 
     status: str
@@ -51,14 +51,14 @@ class Verdict:
 
 @dataclass(frozen=True)
 class Evaluation:
-    """A candidate and its verdict. Times and machines are kept elsewhere, so that histories compare."""
+    """A candidate and its verdict. Times and hosts are stored elsewhere, so that histories can be compared."""
 
     candidate: Candidate
     verdict: Verdict
 
     @property
     def cost(self) -> float:
-        """The score, infinite where there is none."""
+        """The score; infinite if there is none."""
         return math.inf if self.verdict.score is None else self.verdict.score
 
     @property
@@ -66,7 +66,7 @@ class Evaluation:
         return self.verdict.score is None
 
     def line(self) -> str:
-        """One line of JSON, the same for the same numbers; its digest covers all that stands before it."""
+        """One line of JSON, the same for the same numbers. It ends with a digest of all that precedes it."""
         place = self.candidate
         head: dict[str, Any] = {"run": 0, "generation": place.generation, "index": place.index, "x": list(place.x)}
         found = dict(vars(self.verdict))
@@ -80,7 +80,7 @@ _Count = Annotated[int, Field(ge=0, le=2**53)]
 
 
 class _Line(BaseModel):
-    """What a line holds, to the letter."""
+    """The fields of a line."""
 
     model_config = ConfigDict(strict=True, extra="forbid", frozen=True)
 
@@ -100,10 +100,10 @@ class _Line(BaseModel):
 
 
 def evaluation_of(line: bytes) -> Evaluation:
-    """The evaluation that a line of the journal holds.
+    """Read a line of the journal.
 
     Raises:
-        ValueError: It is none, or not as it was written; the words say why.
+        ValueError: The line is not an evaluation, or it was changed; the text says how.
     """
     try:
         found = _Line.model_validate_json(line)
@@ -130,7 +130,7 @@ def evaluation_of(line: bytes) -> Evaluation:
 
 
 def is_whole(line: bytes) -> bool:
-    """Whether a line has a digest, which is its end; lines of old journals have none."""
+    """Whether a line ends with a digest. Lines of old journals do not."""
     return _DIGEST_AT_END.search(line) is not None
 
 

@@ -1,4 +1,4 @@
-"""Why candidates failed: counted by kind, with one example of each."""
+"""Failed candidates, counted by the kind of failure, with one example of each kind."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ _NUMBER = re.compile(r"-?\b\d+(\.\d+)?(e[-+]?\d+)?\b|\bnan\b|-?\binf\b")
 
 @dataclass
 class Failures:
-    """Failed candidates by kind: how many, and the first of each."""
+    """The number of failed candidates of each kind, and the first of each."""
 
     kinds: dict[str, tuple[int, Evaluation]] = field(default_factory=dict)
 
     def add(self, evaluation: Evaluation) -> None:
-        """Count a candidate that failed."""
+        """Count a failed candidate."""
         verdict = evaluation.verdict
         kind = f"{verdict.status}: {_NUMBER.sub('0', verdict.reason)}"
         count, first = self.kinds.get(kind, (0, evaluation))
@@ -26,7 +26,7 @@ class Failures:
 
     @property
     def most_common(self) -> list[tuple[int, Evaluation]]:
-        """How many of each kind, and one of them; the most frequent first."""
+        """The number and an example of each kind, most frequent first."""
         return sorted(self.kinds.values(), key=lambda found: -found[0])
 
 

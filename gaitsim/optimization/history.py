@@ -1,4 +1,4 @@
-"""What can be read off a search: generations.csv and parameters.csv, written anew from the journal's numbers."""
+"""Tables of a search: generations.csv and parameters.csv, written anew from the journal."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _COLUMNS = ("generation", "evaluations", "best", "generation_best", "median", "s
 
 @dataclass(frozen=True)
 class Generation:
-    """The scores of one generation; numbers over those that have a score."""
+    """The scores of one generation. Statistics are over the candidates with a score."""
 
     generation: int
     evaluations: int
@@ -42,7 +42,14 @@ class Generation:
 
 
 def generation_of(number: int, so_far: int, best: float, evaluations: Sequence[Evaluation]) -> Generation:
-    """The summary of a generation; `best` is the lowest score up to and with it."""
+    """Summarize a generation.
+
+    Args:
+        number: Its number.
+        so_far: The number of evaluations so far.
+        best: The lowest score so far, this generation included.
+        evaluations: Its evaluations.
+    """
     scores = [e.verdict.score for e in evaluations if e.verdict.score is not None]
     failed = len(evaluations) - len(scores)
     if not scores:
@@ -52,7 +59,7 @@ def generation_of(number: int, so_far: int, best: float, evaluations: Sequence[E
 
 
 class GenerationsFile:
-    """generations.csv: one row a generation, flushed as it comes."""
+    """generations.csv: one row per generation, flushed at once."""
 
     def __init__(self, folder: Path) -> None:
         self._stream: IO[str] = (folder / "generations.csv").open("w", encoding="utf-8", newline="")
@@ -71,7 +78,17 @@ def parameters_csv(
     best: Sequence[float] | None,
     last: Sequence[Evaluation],
 ) -> str:
-    """Bounds, start, best, and where the better half of the last generation lies: each row in its own unit."""
+    """Bounds, start and best value of each tuned number, and the distribution of the better half of the last
+    generation.
+
+    Args:
+        problem: The tuned numbers; each row is in the unit of its number.
+        best: The best values in SI, if any.
+        last: The evaluations of the last generation.
+
+    Returns:
+        The text of parameters.csv.
+    """
     rows = [_row(("address", "unit", "low", "high", "start", "spread", "best", "mean", "std"))]
     scored = sorted((e for e in last if not e.failed), key=lambda e: e.cost)
     half = np.array([e.candidate.x for e in scored[: max(1, len(scored) // 2)]])

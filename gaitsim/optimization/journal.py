@@ -1,8 +1,9 @@
-"""The journal of a search: every evaluation, safe the moment it arrives, ordered once its generation is whole.
+"""The journal of a search: every evaluation is stored when it arrives, and put in order when its generation is
+complete.
 
-`evaluations.jsonl` holds whole generations in order, so histories can be compared byte for byte;
-`arriving.jsonl` the present generation in the order of arrival. After a crash both are read, and a
-torn last line is cut. No more than a generation is held in memory.
+`evaluations.jsonl` has complete generations in order, so that histories can be compared byte for byte. `arriving.jsonl`
+has the present generation in the order of arrival. After a crash both are read, and an incomplete last line is cut off.
+No more than one generation is held in memory.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ _WHOLE, _ARRIVING = "evaluations.jsonl", "arriving.jsonl"
 
 
 class DamagedJournal(GaitsimError):
-    """A journal that was edited, or that another program wrote."""
+    """A journal was edited, or another program wrote it."""
 
 
 class Journal:
-    """The journal of one result folder, open for writing; it gives back what it held before."""
+    """The journal of one result folder, open for writing. Evaluations of earlier sessions are read from it."""
 
     def __init__(self, folder: Path) -> None:
         self._whole, self._arriving = folder / _WHOLE, folder / _ARRIVING
@@ -40,12 +41,18 @@ class Journal:
         self._stream: IO[str] | None = None
 
     def known(self, candidates: Sequence[Candidate]) -> dict[int, Evaluation]:
-        """The evaluations of a generation's candidates that were made before, by index.
+        """The evaluations of a generation's candidates that the journal has already.
 
-        Generations are asked for in their order.
+        Generations must be asked for in their order.
+
+        Args:
+            candidates: The candidates of the generation.
+
+        Returns:
+            Evaluations by the index of the candidate.
 
         Raises:
-            DamagedJournal: One was of another vector, or is gone.
+            DamagedJournal: One belongs to another vector, or is missing.
         """
         generation = candidates[0].generation
         found = {i: e for (number, i), e in self._arrived.items() if number == generation}
@@ -63,7 +70,7 @@ class Journal:
         return found
 
     def arrived(self, evaluation: Evaluation) -> None:
-        """Keep one evaluation, now."""
+        """Store one evaluation at once."""
         if self._stream is None:
             self._stream = self._arriving.open("a", encoding="utf-8")
         self._stream.write(evaluation.line() + "\n")
@@ -71,7 +78,7 @@ class Journal:
         self._arrived[_place(evaluation)] = evaluation
 
     def close_generation(self, evaluations: Sequence[Evaluation]) -> None:
-        """Move a whole generation into the ordered journal, and make sure that it is on the disk."""
+        """Move a complete generation into the ordered journal, and flush it to the disk."""
         generation = evaluations[0].candidate.generation
         if generation <= self._written:
             return
@@ -96,27 +103,27 @@ class Journal:
 
 
 def evaluations_in(folder: Path) -> list[Evaluation]:
-    """Everything that the journal of a folder holds, in the order of the search; changes nothing.
+    """All evaluations in the journal of a folder, in the order of the search. Nothing is changed.
 
     Raises:
-        DamagedJournal: A line is not as it was written.
+        DamagedJournal: A line was changed.
     """
     found = {_place(evaluation): evaluation for evaluation in read(folder)}
     return [found[place] for place in sorted(found)]
 
 
 def read(folder: Path) -> Iterator[Evaluation]:
-    """The evaluations of a folder one by one: whole generations, then what has arrived of the present one.
+    """The evaluations of a folder one by one: complete generations, then what arrived of the present one.
 
     Raises:
-        DamagedJournal: A line is not as it was written.
+        DamagedJournal: A line was changed.
     """
     yield from _read(_made(folder / _WHOLE))
     yield from _read(folder / _ARRIVING)
 
 
 def old_form_notices(folder: Path) -> list[str]:
-    """What must be said of a journal whose lines have a hash of their vector only; nothing of others."""
+    """A notice for journals of old versions, whose lines have a hash of the vector only."""
     path = folder / _WHOLE
     first = path.open("rb").readline() if path.is_file() else b""
     if not first or is_whole(first):
@@ -129,10 +136,10 @@ def _read(path: Path) -> Iterator[Evaluation]:
 
 
 def _placed(path: Path) -> Iterator[tuple[int, Evaluation]]:
-    """Where in the file each line begins, and its evaluation; a torn last line is passed over.
+    """The offset of each line, and its evaluation. An incomplete last line is skipped.
 
     Raises:
-        DamagedJournal: With the line.
+        DamagedJournal: A line was changed.
     """
     if not path.is_file():
         return
@@ -151,12 +158,12 @@ def _placed(path: Path) -> Iterator[tuple[int, Evaluation]]:
 
 
 def _torn(line: bytes) -> bool:
-    """Whether a line misses its end: a crash cut it, where damage would leave its digest or its newline."""
+    """Whether the end of a line is missing, as after a crash. Damage would leave its digest or its newline."""
     return not line.endswith(b"\n") and not is_whole(line)
 
 
 def _last_generation(path: Path) -> tuple[int, int, list[Evaluation]]:
-    """Of the ordered journal: where its last generation begins, which one is before that, and its evaluations."""
+    """The offset of the last generation in the ordered journal, the number of the one before, and its evaluations."""
     cut, before, last = 0, -1, list[Evaluation]()
     for begin, evaluation in _placed(_made(path)):
         if last and evaluation.candidate.generation != last[-1].candidate.generation:
@@ -166,7 +173,7 @@ def _last_generation(path: Path) -> tuple[int, int, list[Evaluation]]:
 
 
 def _made(path: Path) -> Path:
-    """The ordered journal, which is made with its folder: without it, a search would begin anew unasked."""
+    """The path of the ordered journal. It is created with its folder; a missing one means damage, not a new search."""
     if not path.is_file():
         raise DamagedJournal(Fault(f"this journal is missing; {_MOVE}.", Mark(str(path))))
     return path
@@ -177,13 +184,13 @@ def _place(evaluation: Evaluation) -> tuple[int, int]:
 
 
 def _replace(path: Path, evaluations: Iterable[Evaluation]) -> None:
-    """Write a journal whole: what stood there stays until the new one is on the disk."""
+    """Write a journal completely. The old one stays until the new one is on the disk."""
     with whole(path) as draft, draft.open("w", encoding="utf-8") as file:
         _write(file, evaluations)
 
 
 def _cut(path: Path, size: int) -> None:
-    """Leave the beginning of a file, and make sure that this is on the disk."""
+    """Shorten a file, and flush it to the disk."""
     with path.open("r+b") as file:
         file.truncate(size)
         onto_disk(file)

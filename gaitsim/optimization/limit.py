@@ -1,4 +1,6 @@
-"""How far a number can go before something ends: a scan of its range, then bisection where it ends first."""
+"""The limit of a number: a scan of its range, then bisection between the last value that succeeds and the first that
+fails.
+"""
 
 from __future__ import annotations
 
@@ -8,11 +10,11 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Bracket:
-    """One range, asked at shares of the way from 0 to 1 and told at which of them it holds.
+    """One range. It proposes shares of the range, from 0 to 1, and is told at which of them a run succeeds.
 
     Attributes:
-        points: Of the scan, both ends among them.
-        tolerance: How near the last share that holds must come to the first that does not.
+        points: The number of values in the scan, both ends included.
+        tolerance: The largest distance between the last share that succeeds and the first that fails.
     """
 
     points: int
@@ -21,11 +23,11 @@ class Bracket:
 
     @property
     def most(self) -> int:
-        """How many shares are tried at most."""
+        """The largest number of shares that are tried."""
         return self.points + max(0, math.ceil(-math.log2((self.points - 1) * self.tolerance)))
 
     def ask(self) -> list[float]:
-        """The shares to try next, in any order; none when all is known."""
+        """The shares to try next, in any order; none at the end."""
         if 0.0 not in self.held:
             return [0.0]
         if not self.held[0.0]:
@@ -38,17 +40,17 @@ class Bracket:
         return [(self.last + self.first) / 2]
 
     def tell(self, share: float, holds: bool) -> None:
-        """What was found at a share."""
+        """Store whether a share succeeds."""
         self.held[share] = holds
 
     @property
     def first(self) -> float | None:
-        """The first share that does not hold; None if all do."""
+        """The first share that fails; None if all succeed."""
         return min((share for share, holds in self.held.items() if not holds), default=None)
 
     @property
     def last(self) -> float:
-        """The last share that holds before the first that does not.
+        """The last share that succeeds before the first that fails.
 
         Raises:
             ValueError: There is none.
@@ -58,6 +60,6 @@ class Bracket:
 
     @property
     def beyond(self) -> list[float]:
-        """Shares that hold although one before them does not."""
+        """The shares that succeed although a smaller one fails."""
         first = self.first
         return sorted(share for share, holds in self.held.items() if holds and first is not None and share > first)

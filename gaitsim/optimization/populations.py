@@ -1,4 +1,4 @@
-"""GA, PSO and DE by pymoo, behind ask and tell; an extra: pip install 'gaitsim[populations]'."""
+"""GA, PSO and DE by pymoo. They need an extra: pip install 'gaitsim[populations]'."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _POPULATION = 40
 
 
 class Pymoo:
-    """One of pymoo's algorithms, with the start and spread that CMA-ES would have."""
+    """One of pymoo's algorithms, with the same start and spread as CMA-ES."""
 
     def __init__(self, kind: str, problem: Problem, seed: int, population: int | None) -> None:
         from pymoo.core.problem import Problem as Bounds
@@ -40,5 +40,5 @@ class Pymoo:
         self._algorithm.tell(infills=self._asked)
 
     def stop(self) -> str | None:
-        """Only the budget ends these."""
+        """None: these algorithms end with the last generation only."""
         return None

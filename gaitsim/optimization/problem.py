@@ -1,4 +1,4 @@
-"""What is searched: named numbers with bounds, a start and a spread."""
+"""The problem of a search: named numbers with bounds, a start and a spread."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ Vector = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Variable:
-    """One tuned number, in SI;
+    """One tuned number, in SI.
 
     Attributes:
-        unit: The one it is written in outside.
+        unit: The unit in which it is shown.
     """
 
     address: str
@@ -32,7 +32,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class Problem:
-    """Vectors in SI, and the same divided by their spreads, in which algorithms move."""
+    """The tuned numbers. Algorithms use their values divided by their spreads."""
 
     variables: tuple[Variable, ...]
 
@@ -45,7 +45,7 @@ class Problem:
         return np.asarray(values, dtype=np.float64) / self._spreads
 
     def values(self, scaled: Vector) -> list[float]:
-        """The values in SI, within their bounds to the last bit."""
+        """The values in SI of a scaled vector, exactly within their bounds."""
         low, high = self.bounds
         return [float(v) for v in np.clip(scaled * self._spreads, low, high)]
 
@@ -61,5 +61,5 @@ class Problem:
 
 
 def hash_of(values: Sequence[float]) -> str:
-    """A short digest of a vector's bits, to notice when a replay asks for something else."""
+    """A short digest of a vector's bits, which shows whether a replay asks for another vector."""
     return hashlib.sha256(np.asarray(values, dtype="<f8").tobytes()).hexdigest()[:16]

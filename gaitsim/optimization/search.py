@@ -1,4 +1,6 @@
-"""The search itself: ask, evaluate what the journal does not know, tell. Resuming is replaying."""
+"""The search: ask for vectors, evaluate those that the journal does not have, tell their costs. Resuming is
+replaying.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +18,10 @@ from gaitsim.optimization.problem import Problem
 
 
 class Evaluator(Protocol):
-    """Evaluates candidates, in any order, and says how long each took and where.
+    """Evaluates candidates in any order.
 
-    Workers begin when it is called; what the caller does before it asks for the first is done meanwhile.
+    It yields the evaluation, its time in s, and the host. Workers begin when it is called, so the caller can do other
+    work before it takes the first result.
     """
 
     def __call__(self, candidates: Sequence[Candidate]) -> Iterator[tuple[Evaluation, float, str]]: ...
@@ -31,13 +34,13 @@ Watcher = Callable[["Progress"], None]
 
 @dataclass
 class Progress:
-    """Where a search stands.
+    """The state of a search.
 
     Attributes:
-        generation, evaluations: Whole ones, and all their evaluations.
-        asked, arrived: Of the generation that is being evaluated, how many candidates it has and how many are known.
-        evaluated_now: In this session.
-        last: The evaluations of the last whole generation.
+        generation, evaluations: The number of complete generations, and of their evaluations.
+        asked, arrived: The number of candidates of the present generation, and of those that are evaluated.
+        evaluated_now: The number of evaluations in this session.
+        last: The evaluations of the last complete generation.
     """
 
     generation: int = 0
@@ -70,12 +73,15 @@ class Search:
         self.progress = Progress()
 
     def run(self, generations: int) -> Progress:
-        """Search until so many generations are done or the algorithm stops.
+        """Search until a number of generations is complete or the algorithm stops.
 
-        Everything that arrived is in the journal.
+        All evaluations that arrived are in the journal, also after an error.
+
+        Args:
+            generations: The number of generations.
 
         Raises:
-            DamagedJournal: ; what the evaluator raises.
+            DamagedJournal: The journal does not fit the search. Errors of the evaluator are raised too.
         """
         progress = self.progress
         self._evaluated(0, [tuple(self.problem.start)])
@@ -92,7 +98,7 @@ class Search:
         return progress
 
     def _evaluated(self, generation: int, values: Iterable[tuple[float, ...]]) -> list[Evaluation]:
-        """All evaluations of one generation, in order: from the journal, or made now."""
+        """All evaluations of one generation in order, from the journal or new."""
         candidates = [Candidate(generation, i, x) for i, x in enumerate(values)]
         found = self.journal.known(candidates)
         self.progress.asked, self.progress.arrived = len(candidates), len(found)

@@ -1,4 +1,4 @@
-"""What a model is made of, as files: its spec and a copy of every component and of what it imports. It re-runs anywhere."""
+"""Bundles: a spec and a copy of every component file that it uses. A bundle runs on any machine."""
 
 from __future__ import annotations
 
@@ -23,14 +23,14 @@ _SUFFIXES = (".py", ".yaml", ".csv")
 
 
 class BadResult(GaitsimError):
-    """A folder that is no result, or that is damaged."""
+    """The folder is not a result, or the result is damaged."""
 
 
 @dataclass(frozen=True)
 class Bundle:
-    """Texts by relative path: spec.yaml and components/kind/name.*, and the folder where errors say they lie.
+    """Texts by relative path: spec.yaml and components/kind/name.*, and the folder that errors name.
 
-    It is read once: its digest, the question whether it may run, and the model all come of the same texts.
+    A bundle is read once. Its digest, the decision whether it may run, and the model all follow from the same texts.
     """
 
     name: str
@@ -39,7 +39,7 @@ class Bundle:
 
     @property
     def digest(self) -> str:
-        """One digest over all names and texts."""
+        """One digest of all names and texts."""
         whole = hashlib.sha256(self.name.encode())
         for path, text in sorted(self.files.items()):
             whole.update(f"\0{path}\0{text}".encode())
@@ -54,7 +54,7 @@ class Bundle:
         """Write the files below a folder.
 
         Raises:
-            OSError: The file cannot be read or written.
+            OSError: A file cannot be written.
         """
         for path, text in self.files.items():
             target = folder / path
@@ -62,23 +62,23 @@ class Bundle:
             target.write_text(text, encoding="utf-8")
 
     def document(self) -> MappingNode:
-        """The spec.
+        """The spec as a document.
 
         Raises:
-            InvalidSpec: The spec breaks a rule.
+            InvalidSpec: It cannot be read.
         """
         return parse(self.files[SPEC], str(self.folder / SPEC))
 
     def library(self) -> Library:
-        """The components, and no others."""
+        """The library with the components of the bundle only."""
         inside = {self.folder / path: text for path, text in self.files.items() if path.startswith(f"{COMPONENTS}/")}
         return Library((self.folder / COMPONENTS,), inside)
 
     def starts(self) -> dict[str, float]:
-        """The tuned values to start from, by address, in SI.
+        """The tuned values to start from, in SI by address.
 
         Raises:
-            BadResult: The folder is not a result, or the result is damaged.
+            BadResult: They cannot be read.
         """
         if START not in self.files:
             return {}
@@ -104,9 +104,16 @@ class Bundle:
 def bundled(
     document: MappingNode, name: str, library: Library, starts: Mapping[str, float], models: Iterable[Model]
 ) -> Bundle:
-    """The bundle of a spec and its resolved models; `starts` are tuned values by address.
+    """Make the bundle of a spec.
 
-    What every model dropped when a part was swapped is left out: the text no longer says who had it.
+    Keys that every model dropped when a part was replaced are left out.
+
+    Args:
+        document: The spec.
+        name: Its name.
+        library: The components.
+        starts: Tuned values in SI by address.
+        models: The models that were resolved from the spec.
     """
     dropped = frozenset.intersection(*(model.dropped for model in models))
     files = {SPEC: dump(plain(without_marked(document, dropped)))}
@@ -126,10 +133,10 @@ def bundled(
 
 
 def read_bundle(folder: Path, name: str) -> Bundle:
-    """The bundle that lies in a result folder, also behind links.
+    """Read the bundle in a result folder; files may be links.
 
     Raises:
-        BadResult: For what is missing or no text.
+        BadResult: A file is missing or is not text.
     """
     try:
         inside = [path for path in (folder / COMPONENTS).glob("*/*") if path.suffix in _SUFFIXES]
@@ -142,7 +149,7 @@ def read_bundle(folder: Path, name: str) -> Bundle:
 
 
 def _text(path: Path) -> str:
-    """A file of a result, with lines ended as Python does."""
+    r"""The text of a file in a result, with "\n" at the end of lines."""
     try:
         return as_lines(text_of(path, shown(path), "copy"))
     except GaitsimError as error:

@@ -1,4 +1,4 @@
-"""The results of a folder as rows: filtered and in order."""
+"""The results in a folder as rows, which can be filtered and sorted."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Row = Mapping[str, Any]
 
 
 def _number(key: str) -> Callable[[Row], float]:
-    """Sorts rows without that number to the end."""
+    """A sort key that puts rows without the number last."""
     return lambda row: math.inf if row[key] is None else row[key]
 
 
@@ -35,10 +35,10 @@ ORDERS: Mapping[str, Callable[[Row], Any]] = {
 
 @dataclass(frozen=True)
 class Filter:
-    """Which results are wanted; None for all.
+    """The results that are wanted; None accepts all.
 
     Attributes:
-        name: A pattern of the spec's name.
+        name: A pattern for the name of the spec.
         since: A day such as 2026-11-22.
         uses: A component.
         noted: A text in the notes.
@@ -52,8 +52,10 @@ class Filter:
     noted: str | None = None
 
     def __post_init__(self) -> None:
-        """        Raises:
-            Usage: For words that no result has.
+        """Check the words of the filter.
+
+        Raises:
+            Usage: No result can have such a word.
         """
         for option, words in _CHOICES.items():
             said = getattr(self, option)
@@ -68,7 +70,7 @@ class Filter:
             raise Usage(f"--uses {self.uses}: write a component as KIND/NAME, such as muscle/geyer2003.")
 
     def keeps(self, row: Row) -> bool:
-        """Whether a row is wanted."""
+        """Whether the filter accepts a row."""
         return (
             (self.name is None or fnmatchcase(str(row["name"]), self.name))
             and self.kind in (None, row["kind"])
@@ -80,13 +82,13 @@ class Filter:
 
 
 def listed(root: Path, wanted: Filter, order: str) -> list[dict[str, Any]]:
-    """The results in a folder that are wanted, in an order of `ORDERS`; what is still being made is not among them."""
+    """The accepted results in a folder, in an order of `ORDERS`. Results that are being created are left out."""
     folders = [path.parent for path in sorted(root.glob("*/manifest.json")) if path.parent.suffix != PARTIAL]
     return sorted((row for row in map(_row, folders) if wanted.keeps(row)), key=ORDERS[order])
 
 
 def _row(folder: Path) -> dict[str, Any]:
-    """A result in the list; one whose manifest cannot be read is there too, as damaged."""
+    """The row of a result. A result whose manifest cannot be read is listed as damaged."""
     try:
         manifest = recorded_manifest(folder)
     except BadResult:

@@ -1,4 +1,4 @@
-"""What a paper must cite that uses a model: the sources of its numbers, its components, its tools."""
+"""The references that a paper should cite for a model: sources of its numbers, its components, and tools."""
 
 from __future__ import annotations
 
@@ -33,17 +33,22 @@ class Citation:
 
 @dataclass(frozen=True)
 class Citations:
-    """Entries in the order of their keys, and sources that are words: text -> what says it."""
+    """Entries sorted by key, and sources without a key: text -> what has this source."""
 
     entries: tuple[Citation, ...]
     words: Mapping[str, tuple[str, ...]]
 
 
 def citations(model: Model, bibliography: Mapping[str, str], algorithm: tuple[str, ...] = ()) -> Citations:
-    """What a model is made of; `algorithm` has the keys of the search that tuned it.
+    """Collect the references of a model.
+
+    Args:
+        model: The model.
+        bibliography: BibTeX entries by key.
+        algorithm: The keys of the algorithm that tuned it.
 
     Raises:
-        InvalidSpec: Each source that is in no bibliography, with its place.
+        InvalidSpec: Sources are not in the bibliography; the error has their places.
     """
     used: dict[str, list[str]] = defaultdict(list)
     words: dict[str, list[str]] = defaultdict(list)
@@ -80,7 +85,7 @@ def citations(model: Model, bibliography: Mapping[str, str], algorithm: tuple[st
 
 
 def _numbers(model: Model) -> Iterator[tuple[Number, Part | None]]:
-    """Every number that the model depends on, once; those of parts with their part."""
+    """Every number that the model depends on, once, with its part if it has one."""
     seen: set[int] = set()
     for index, part in _roots(model):
         todo = [index]
@@ -96,7 +101,7 @@ def _numbers(model: Model) -> Iterator[tuple[Number, Part | None]]:
 
 
 def _roots(model: Model) -> Iterator[tuple[int, Part | None]]:
-    """The numbers that parts, connections and initial values have."""
+    """The numbers of parts, connections and initial values."""
     for part in _parts(model):
         for index in (*part.numbers.values(), *part.constants.values(), *part.coordinates):
             yield index, part
@@ -110,14 +115,14 @@ def _parts(model: Model) -> Iterable[Part]:
 
 
 def _components(model: Model) -> dict[str, str]:
-    """The doc of each component in use by its reference; of composites and recorded curves, their names."""
+    """The documentation of each component in use; of composites and recorded curves, their names."""
     found = {part.type.reference: part.type.doc for part in _parts(model)}
     recorded = {series.column: series.source for part in _parts(model) for series in part.series.values()}
     return found | recorded | {group.reference: "" for group in model.groups}
 
 
 def _place(number: Number, part: Part | None) -> Mark | None:
-    """Where the source of a number is written."""
+    """The place where the source of a number is written."""
     if number.mark is not None or part is None:
         return number.mark
     component = part.type

@@ -1,4 +1,4 @@
-"""cohort.json: the rows of a cohort, bodies crossed with devices, and how a row that does not complete is tuned."""
+"""cohort.json: the rows of a cohort (bodies times devices), and how rows that do not complete are tuned."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ from gaitsim.text.document import MappingNode
 class Row:
     """One body with one device.
 
-    body: its name. settings: what is set in the spec, as text by address. place: where the body is written.
+    Attributes:
+        body: Its name.
+        settings: The settings of the spec, as text by address.
+        place: Where the body is written.
     """
 
     body: str
@@ -25,7 +28,12 @@ class Row:
     place: str
 
     def document(self, spec: MappingNode) -> MappingNode:
-        """The spec of this row. Errors: InvalidSpec, Usage, at the place where the body is written."""
+        """The spec of this row.
+
+        Raises:
+            InvalidSpec: A setting does not fit; the place is that of the body.
+            Usage: A setting is not of the form address=value.
+        """
         for address, text in self.settings.items():
             spec = override(spec, address, text, self.place)
         return spec
@@ -33,19 +41,23 @@ class Row:
 
 @dataclass(frozen=True)
 class Cohort:
-    """All rows in order; evaluations that a row may take to be tuned again (0 for none); the seed of each search."""
+    """All rows in order, the number of evaluations to tune a row again (0 for none), and the seed of each search."""
 
     rows: tuple[Row, ...]
     retune: int
     seed: int
 
     def text(self) -> str:
-        """As a bundle has it."""
+        """The text of cohort.json."""
         return json.dumps(asdict(self), indent=1, ensure_ascii=False) + "\n"
 
 
 def cohort_of(bundle: Bundle) -> Cohort:
-    """The cohort that a bundle holds. Errors: BadResult."""
+    """The cohort of a bundle.
+
+    Raises:
+        BadResult: It cannot be read.
+    """
     try:
         found = _Cohort.model_validate_json(bundle.files[COHORT])
     except (KeyError, ValidationError) as error:
@@ -63,7 +75,7 @@ class _Row(BaseModel):
 
 
 class _Cohort(BaseModel):
-    """What the file holds, to the letter."""
+    """The fields of the file."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
 

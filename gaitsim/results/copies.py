@@ -1,4 +1,4 @@
-"""The components that a result brings, and how they compare with those of one's own library."""
+"""The component files of a result, compared with those of one's own libraries."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class Copy:
     """One component file of a result.
 
     Attributes:
-        library: Which of one's own has a file of this name: shipped, lab, project, a folder; empty for none.
+        library: The library with a file of this name: shipped, lab, project, or a folder; empty for none.
         same: Whether that file is the same.
-        strange: Whether it is code that this machine does not know.
+        strange: Whether this machine does not know the code.
     """
 
     path: str
@@ -30,14 +30,14 @@ class Copy:
 
     @property
     def words(self) -> str:
-        """What is said of it."""
+        """The comparison in words."""
         if not self.library:
             return "not in your libraries"
         return f"{'same as' if self.same else 'differs from'} {self.library}"
 
 
 def copies(bundle: Bundle, folders: Sequence[Path]) -> list[Copy]:
-    """The component files of a bundle beside those in folders, of which the first that has one counts."""
+    """Compare the component files of a bundle with those in folders; the first folder with such a file counts."""
     strange = set(strangers(bundle))
     found = []
     for path, text in sorted(bundle.files.items()):

@@ -1,4 +1,4 @@
-"""The difference of two models: part by part, value by value, connection by connection, and in the code of components."""
+"""The difference of two models: parts, values, connections, and the code of components."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ Rows = Mapping[str, str]
 
 @dataclass(frozen=True)
 class Change:
-    """One thing in which two models differ.
+    """One difference of two models.
 
     Attributes:
         what: A key of `KINDS`.
@@ -52,7 +52,7 @@ KINDS = {  # what differs: how it is counted
 
 
 def model_changes(first: Model, second: Model) -> list[Change]:
-    """In what two models differ, in the order of `KINDS`. Of a part that only one has, only that is told."""
+    """The differences of two models, in the order of `KINDS`. For a part that only one has, only that is listed."""
     uses = [{row["address"]: row["use"] for row in part_rows(model)} for model in (first, second)]
     alone = uses[0].keys() ^ uses[1].keys()
     found = [
@@ -68,7 +68,9 @@ def model_changes(first: Model, second: Model) -> list[Change]:
 
 
 def code_changes(first: Bundle, second: Bundle) -> list[Change]:
-    """Component files of the same name whose texts differ: their digests, and how many lines were added and removed."""
+    """Component files of the same name with different texts: their digests, and the number of added and removed
+    lines.
+    """
     found = []
     for path, text in sorted(first.files.items()):
         other = second.files.get(path, text)
@@ -83,9 +85,8 @@ def code_changes(first: Bundle, second: Bundle) -> list[Change]:
 
 
 def making_changes(first: Mapping[str, Any], second: Mapping[str, Any]) -> list[Change]:
-    """In what the manifests of two results differ: settings of their searches, if both are, and versions.
-
-    Nothing for specs.
+    """The differences of two manifests: settings of the searches, if both are searches, and versions. Specs have
+    none.
     """
     if not (first and second):
         return []
@@ -102,7 +103,7 @@ def ordered(changes: Iterable[Change]) -> list[Change]:
 
 
 def counted(changes: Iterable[Change]) -> dict[str, int]:
-    """How many changes of each kind there are."""
+    """The number of changes of each kind."""
     listed = [change.what for change in changes]
     return {what: listed.count(what) for what in KINDS if what in listed}
 
@@ -110,11 +111,11 @@ def counted(changes: Iterable[Change]) -> dict[str, int]:
 def _told(
     what: str, first: Rows, second: Rows, only: Iterable[str] | None = None, unless: Iterable[str] = ()
 ) -> Iterator[Change]:
-    """What differs between two tables, in their order.
+    """The differences of two tables, in their order.
 
     Args:
-        only: Of these rows.
-        unless: Not of rows in these parts.
+        only: The rows that count; all by default.
+        unless: Parts whose rows do not count.
     """
     without = set(unless)
     for where in dict.fromkeys(only if only is not None else (*first, *second)):
@@ -124,7 +125,7 @@ def _told(
 
 
 def _inside(address: str, parts: set[str]) -> bool:
-    """Whether an address is of something in one of these parts."""
+    """Whether an address belongs to one of these parts."""
     while "." in address:
         address = address.rpartition(".")[0]
         if address in parts:
@@ -145,7 +146,7 @@ def _number_changes(first: Model, second: Model, alone: set[str]) -> Iterator[Ch
 
 
 def _kind(one: Mapping[str, Any] | None, other: Mapping[str, Any] | None) -> str:
-    """What kind of change it is that two numbers differ."""
+    """The kind of change for two numbers that differ."""
     if one is None or other is None:
         return "value"
     if "tune" in one and "tune" in other:
@@ -155,7 +156,7 @@ def _kind(one: Mapping[str, Any] | None, other: Mapping[str, Any] | None) -> str
 
 
 def _number(row: Mapping[str, Any] | None) -> str:
-    """A number so that two which differ are not told alike."""
+    """A number as text; different numbers have different texts."""
     if row is None:
         return ""
     unit = "" if row["unit"] == "1" else f" {row['unit']}"
@@ -173,7 +174,7 @@ def _tuning(row: Mapping[str, Any]) -> str:
 
 
 def _places(model: Model) -> dict[str, str]:
-    """On what each part is fastened: its attachments, and the frames of its points."""
+    """What each part is fastened to: its attachments, and the frames of its points."""
     return {part.address: said for part in model.parts if (said := _place(part))}
 
 
@@ -184,7 +185,7 @@ def _place(part: Part) -> str:
 
 
 def _senders(model: Model) -> dict[str, str]:
-    """What each input receives."""
+    """The senders of each input."""
     found: dict[str, list[str]] = {}
     for row in connection_rows(model):
         found.setdefault(row["to"], []).append(row["from"])
@@ -201,7 +202,7 @@ def _curves(model: Model) -> dict[str, str]:
 
 
 def _simulation(model: Model) -> dict[str, str]:
-    """In SI."""
+    """The settings of the simulation, in SI."""
     settings = model.simulate
     return {
         "duration": f"{settings.duration!r} s",

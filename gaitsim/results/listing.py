@@ -1,4 +1,4 @@
-"""A model as plain data: what `show` prints and what a result keeps as model.yaml."""
+"""A model as plain data, as `show` prints it and model.yaml in a result has it."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from gaitsim.model import Model
 
 
 def model_data(model: Model) -> dict[str, Any]:
-    """Parts, parameters, connections, initial values and metrics.
+    """Parts, parameters, connections, initial values and metrics of a model.
 
-    A number beside a unit is in that unit; all others are in SI.
+    A number with a unit beside it is in that unit; all others are in SI.
     """
     return {
         "name": model.name,
@@ -29,7 +29,7 @@ def model_data(model: Model) -> dict[str, Any]:
 
 
 def part_rows(model: Model) -> list[dict[str, Any]]:
-    """Every part, composites included: children right below their parent, siblings as written."""
+    """Every part, composites included. Inner parts follow their parent; siblings are in the order of the spec."""
     rows: list[dict[str, Any]] = []
     groups = list(model.groups)
     for i, part in enumerate(model.parts):
@@ -48,7 +48,7 @@ def part_rows(model: Model) -> list[dict[str, Any]]:
 def parameter_rows(model: Model) -> list[dict[str, Any]]:
     """Every number: value, unit, bounds of the search, expression, source, place.
 
-    Values are in `unit`; bounds and spread in `tune_unit`, which differs for a share of a length.
+    Values are in `unit`. Bounds and spread are in `tune_unit`, which differs for a share of a length.
     """
     values = model.values()
     rows = []
@@ -71,7 +71,7 @@ def parameter_rows(model: Model) -> list[dict[str, Any]]:
 
 
 def connection_rows(model: Model) -> list[dict[str, Any]]:
-    """Every connection, also those that parts make with their inner parts."""
+    """Every connection, also those of parts with their inner parts."""
     values = model.values()
     rows = []
     for connection in model.connections:

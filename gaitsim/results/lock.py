@@ -1,4 +1,4 @@
-"""One writer for a result folder; a writer that died does not hold it."""
+"""Locks of result folders. A folder has one writer; the lock of a writer that died does not count."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ class Locked(GaitsimError):
 
 
 class Lock:
-    """Holds `lock` in a folder while its block runs.
+    """Holds the file `lock` in a folder during a block.
 
-    A plain file rather than a lock of the operating system: those fail on network drives.
+    It is a plain file, because locks of the operating system fail on network drives.
     """
 
     def __init__(self, folder: Path) -> None:
@@ -69,9 +69,14 @@ class Lock:
 
 
 def state_of(folder: Path, status: str) -> str:
-    """What a result's status is by now: who died while it was `running` could not write another.
+    """The present status of a result.
 
-    On another machine's word alone a process runs: from here that cannot be seen.
+    A process that died could not change the status `running`. A process on another machine is assumed to run, because
+    this cannot be checked from here.
+
+    Args:
+        folder: The result.
+        status: The status in its manifest.
     """
     if status != "running":
         return status
@@ -90,7 +95,7 @@ def _age(path: Path) -> float:
 
 
 def _holder(path: Path) -> dict[str, Any]:
-    """Who holds a lock; nothing if that is not written yet, or is garbage."""
+    """The content of a lock; empty if it is not written yet or cannot be read."""
     try:
         data = json.loads(path.read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -99,7 +104,7 @@ def _holder(path: Path) -> dict[str, Any]:
 
 
 def _may_run(holder: Mapping[str, Any]) -> bool:
-    """Whether the process that holds a lock still runs; one on another machine may."""
+    """Whether the process that holds a lock may still run. One on another machine may."""
     if holder.get("host") not in (None, socket.gethostname()):
         return True
     process = holder.get("process")
@@ -116,7 +121,7 @@ def _may_run(holder: Mapping[str, Any]) -> bool:
 
 
 def _began(process: int) -> int | None:
-    """When a process began, in ticks since this machine did; None where the system does not say it."""
+    """The start of a process in ticks since boot; None if the system does not report it."""
     try:
         return int(Path(f"/proc/{process}/stat").read_text(encoding="utf-8").rpartition(")")[2].split()[19])
     except (OSError, ValueError, IndexError):

@@ -1,4 +1,4 @@
-"""manifest.json: what a result is, where it comes from, and whether it is whole."""
+"""manifest.json: what a result is, where it comes from, and whether it is complete."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FORMAT = 2  # of what a result's files say; in 1, parameters.csv and model.yaml 
 
 
 def is_result(path: Path) -> bool:
-    """Whether a path is meant as a result: a folder with a manifest, or in a folder of results."""
+    """Whether a path refers to a result: a folder with a manifest, or one in a folder of results."""
     if (path / _NAME).is_file():
         return True
     parent = path.absolute().parent
@@ -32,9 +32,11 @@ def is_result(path: Path) -> bool:
 
 
 def result_named(path: Path, results: Path | None = None) -> Path:
-    """The result that is meant by its name alone, such as 2026-11-22-hopping-3f9c; any other path as it is.
+    """The path of a result that is given by name, such as 2026-11-22-hopping-3f9c; other paths are returned
+    unchanged.
 
     Args:
+        path: The name or path.
         results: The folder in which names are looked up, if not the usual one.
     """
     found = results_folder(results) / path
@@ -42,10 +44,14 @@ def result_named(path: Path, results: Path | None = None) -> Path:
 
 
 def new_manifest(kind: str, bundle: Bundle, mode: str, place: Path, **more: Any) -> dict[str, Any]:
-    """The manifest of a result that is about to be made;
+    """The manifest of a new result.
 
     Args:
+        kind: run, study, draws, optimize or limit.
+        bundle: Its bundle.
+        mode: "rapid" or "normal".
         place: The folder of its spec.
+        more: Further entries.
     """
     return {
         "kind": kind,
@@ -61,21 +67,21 @@ def new_manifest(kind: str, bundle: Bundle, mode: str, place: Path, **more: Any)
 
 
 def format_of(manifest: Mapping[str, Any]) -> int:
-    """The format of a result's files; those that do not say it have the first."""
+    """The format of a result's files; 1 if the manifest does not say it."""
     return int(manifest.get("format", 1))
 
 
 def write_manifest(folder: Path, manifest: dict[str, Any]) -> None:
-    """Replace the manifest as a whole.
+    """Replace the manifest completely.
 
     Raises:
-        OSError: The file cannot be read or written.
+        OSError: The file cannot be written.
     """
     write_whole(folder / _NAME, json.dumps(manifest, indent=2) + "\n")
 
 
 class _Known(BaseModel):
-    """What readers of a manifest rely on; the rest may say anything."""
+    """The entries of a manifest that its readers use. Others are not checked."""
 
     model_config = ConfigDict(extra="allow", strict=True)
 
@@ -96,10 +102,10 @@ class _Known(BaseModel):
 
 
 def recorded_manifest(folder: Path) -> dict[str, Any]:
-    """What a result's manifest says; whether its files are as they were is not asked.
+    """Read the manifest of a result, without checking the result's files.
 
     Raises:
-        BadResult: The folder is not a result, or the result is damaged.
+        BadResult: There is no manifest, or it cannot be read.
     """
     path = folder / _NAME
     try:
@@ -115,7 +121,7 @@ def recorded_manifest(folder: Path) -> dict[str, Any]:
 
 
 def _said(fault: ErrorDetails) -> str:
-    """What a manifest says and should not."""
+    """The message for a wrong entry of a manifest."""
     place = ".".join(map(str, fault["loc"]))
     if fault["type"] == "missing":
         return f"{place} is missing"
@@ -124,10 +130,13 @@ def _said(fault: ErrorDetails) -> str:
 
 
 def read_result(folder: Path) -> tuple[dict[str, Any], Bundle]:
-    """The manifest of a result, and its files, checked against the digest that the manifest has of them.
+    """Read a result, and check its files against the digest in the manifest.
+
+    Returns:
+        The manifest and the bundle.
 
     Raises:
-        BadResult: The folder is not a result, or the result is damaged.
+        BadResult: The folder is not a result, or its files were changed.
     """
     check_is_result(folder)
     manifest = recorded_manifest(folder)
@@ -139,10 +148,11 @@ def read_result(folder: Path) -> tuple[dict[str, Any], Bundle]:
 
 
 def _edited(before: Mapping[str, str], bundle: Bundle) -> str:
-    """What happened to the files of a result.
+    """How the files of a result were changed, in words.
 
     Args:
-        before: Their digests; older results have none.
+        before: Their digests when the result was made; old results have none.
+        bundle: The files now.
     """
     now = bundle.digests
     same = [path for path in before if now.get(path) == before[path]]
@@ -156,8 +166,10 @@ def _edited(before: Mapping[str, str], bundle: Bundle) -> str:
 
 
 def check_is_result(folder: Path) -> None:
-    """    Raises:
-        BadResult: For what is no result, or one that was never finished being made.
+    """Check that a folder is a result.
+
+    Raises:
+        BadResult: It is not, or it was never completed.
     """
     if not folder.is_dir():
         near = sorted(p.name for p in folder.absolute().parent.glob("*") if (p / _NAME).is_file())
@@ -169,16 +181,16 @@ def check_is_result(folder: Path) -> None:
 
 
 def read_manifest(folder: Path) -> dict[str, Any]:
-    """The manifest of a result whose files are as they were.
+    """The manifest of a result whose files are unchanged.
 
     Raises:
-        BadResult: The folder is not a result, or the result is damaged.
+        BadResult: The folder is not a result, or its files were changed.
     """
     return read_result(folder)[0]
 
 
 def changed_versions(manifest: dict[str, Any]) -> list[str]:
-    """What differs between the result's versions and this machine's: in words."""
+    """The differences between the result's versions and those of this machine, in words."""
     before = {"gaitsim": manifest.get("gaitsim"), **manifest.get("versions", {})}
     after = {"gaitsim": __version__, **versions()}
     return [
@@ -189,6 +201,6 @@ def changed_versions(manifest: dict[str, Any]) -> list[str]:
 
 
 def changed_makers(manifest: dict[str, Any]) -> list[str]:
-    """What differs between what made the result and this machine, which may change last digits: versions, processor."""
+    """The differences in all that may change the last digits: versions and processor."""
     before, after = manifest.get("machine", {}).get("cpu"), machine()["cpu"]
     return [*changed_versions(manifest), *([f"processor {before} -> {after}"] if before not in (None, after) else [])]

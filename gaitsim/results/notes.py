@@ -1,4 +1,4 @@
-"""A researcher's own words about a result: below the heading Notes of its README, which no digest covers."""
+"""A researcher's notes about a result: the section Notes of its README. No digest covers them."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _README = "README.md"
 
 
 def notes_of(folder: Path) -> str:
-    """The notes of a result; nothing if there are none."""
+    """The notes of a result; empty if there are none."""
     try:
         text = (folder / _README).read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError):
@@ -21,10 +21,16 @@ def notes_of(folder: Path) -> str:
 
 
 def add_note(folder: Path, text: str, author: str, day: str) -> None:
-    """Add a note below those that are there, with its author and day.
+    """Append a note.
+
+    Args:
+        folder: The result.
+        text: The note.
+        author: Who writes it.
+        day: The date.
 
     Raises:
-        CannotSave: The README cannot be read or written; it is then as it was.
+        CannotSave: The README cannot be read or written. It is unchanged.
     """
     path = folder / _README
     try:

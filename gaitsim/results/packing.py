@@ -1,4 +1,4 @@
-"""A result as one file for a colleague, and back; what arrives is checked before anything of it is written or run."""
+"""Export of a result to one file, and import. An imported file is checked before anything of it is written or run."""
 
 from __future__ import annotations
 
@@ -29,14 +29,14 @@ _ANEW = "ask for a file that gaitsim results export made"
 
 
 def pack(folder: Path, target: Path) -> None:
-    """Write a result as a zip file: all that is needed to verify, resume and analyze it, and its notes.
+    """Write a result as a zip file, with all that is needed to verify, resume and analyze it, and its notes.
 
-    The same result gives the same bytes: files in order, without dates. Figures, videos and reports, which can be made
-    again, are left out.
+    The same result gives the same bytes: files are in order and without dates. Figures, videos and reports are left
+    out, because they can be made again.
 
     Raises:
-        BadResult: It is no result, one that is being written, or one that was edited.
-        CannotSave: The file is there already, or cannot be written.
+        BadResult: The folder is not a result, is being written, or was edited.
+        CannotSave: The file exists already, or cannot be written.
     """
     manifest, _ = read_result(folder)
     if state_of(folder, manifest["status"]) == "running":
@@ -57,13 +57,14 @@ def pack(folder: Path, target: Path) -> None:
 
 
 def unpack(archive: Path, root: Path) -> Path:
-    """Put a result that a colleague exported among the results in `root`; its folder there.
+    """Add an exported result to the results in `root`. Nothing of it is run.
 
-    Nothing of it is run.
+    Returns:
+        Its folder.
 
     Raises:
-        BadResult: The file is no result, or holds what no result does; nothing is left behind.
-        CannotSave: A result of that name is there already, or cannot be written.
+        BadResult: The file is not a result, or has unexpected content. Nothing is left behind.
+        CannotSave: There is a result of this name already, or the folder cannot be written.
     """
     try:
         with zipfile.ZipFile(archive) as file:
@@ -106,7 +107,7 @@ def _checked(archive: Path, entries: Sequence[zipfile.ZipInfo]) -> str:
     """The name of the result in a file.
 
     Raises:
-        BadResult: For what export never writes.
+        BadResult: The file has something that export never writes.
     """
     for rule in _faults(entries):
         raise BadResult(f"{archive}: {rule}; nothing was imported. {_ANEW[0].upper()}{_ANEW[1:]}.")
@@ -114,7 +115,7 @@ def _checked(archive: Path, entries: Sequence[zipfile.ZipInfo]) -> str:
 
 
 def _faults(entries: Sequence[zipfile.ZipInfo]) -> Iterator[str]:
-    """What is wrong with the list of files, before one is read."""
+    """Faults of the list of files, before a file is read."""
     if not entries:
         yield "it is empty"
     if len(entries) > _MOST_FILES:
@@ -140,7 +141,7 @@ def _faults(entries: Sequence[zipfile.ZipInfo]) -> Iterator[str]:
 
 
 def _pieces(file: zipfile.ZipFile, entry: zipfile.ZipInfo) -> Iterator[bytes]:
-    """The content of a file, no more of it than its size says."""
+    """The content of a file, up to its declared size."""
     with file.open(entry) as opened:
         while piece := opened.read(_PIECE):
             yield piece

@@ -1,4 +1,4 @@
-"""One candidate of a result: best, by rank, or by its place in the search."""
+"""Candidates of a result: the best, by rank, or by their place in the search."""
 
 from __future__ import annotations
 
@@ -11,11 +11,15 @@ from gaitsim.results.manifest import BadResult
 
 
 def pick(folder: Path, which: str) -> Evaluation:
-    """The evaluation that `best`, `RANK` (1 is the best) or `GENERATION:INDEX` names.
+    """Find a candidate.
+
+    Args:
+        folder: The result of a search.
+        which: `best`, `RANK` (1 is the best) or `GENERATION:INDEX`.
 
     Raises:
-        BadResult: A search without evaluations.
-        Usage: A word that names none.
+        BadResult: The search has no evaluations.
+        Usage: There is no such candidate.
     """
     found = evaluations_in(folder)
     if not found:

@@ -1,4 +1,4 @@
-"""Where a result comes from: versions, machine, commit, command."""
+"""The origin of a result: versions, machine, commit, command."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LIBRARIES = ("mujoco", "numba", "numpy", "pydantic", "pyyaml", "cma")
 
 
 def provenance(place: Path) -> dict[str, Any]:
-    """What a result must remember of its making.
+    """The origin of a result that is made now.
 
     Args:
         place: The folder of its spec.
@@ -39,14 +39,16 @@ def versions() -> dict[str, str]:
 
 
 def machine() -> dict[str, str]:
-    """The system and the processor, for which native code is made."""
+    """The system and the processor, for which native code is compiled."""
     return {"system": platform.platform(), "cpu": _processor()}
 
 
 def changes(place: Path) -> str:
-    """What differs from the last commit in the repository of a folder: a patch, below a list of all changed files.
+    """The uncommitted changes in the repository of a folder: a list of the changed files, and a patch.
 
-    Nothing if nothing differs, or outside a checkout. A patch of more than 1 MiB is left out, and the text says so.
+    Returns:
+        The text; empty without changes or outside a checkout. A patch of more than 1 MiB is left out, and the text says
+            so.
     """
     try:
         status = _status(place)
@@ -62,7 +64,7 @@ def changes(place: Path) -> str:
 
 
 def changes_file(place: Path) -> dict[str, str]:
-    """The file of a result that holds `changes`, if there are any: name -> text."""
+    """The file with `changes` of a result, by name; empty without changes."""
     found = changes(place)
     return {"changes.diff": found} if found else {}
 
@@ -74,7 +76,7 @@ def _processor() -> str:
 
 
 def _commit(folder: Path) -> dict[str, Any] | None:
-    """The git commit of a folder's repository and whether it has changes; None outside a checkout."""
+    """The git commit of a folder's repository, and whether it has changes; None outside a checkout."""
     try:
         head = _git("rev-parse", "HEAD", folder=folder)
         return {"hash": head, "dirty": bool(_status(folder))}
@@ -88,7 +90,7 @@ def _status(folder: Path) -> str:
 
 
 def author() -> str:
-    """Who works here: the name and address that git knows, or else the name of the user."""
+    """The name and address that git knows, or else the name of the user."""
     name, address = (_setting(key) for key in ("user.name", "user.email"))
     if name:
         return f"{name} <{address}>" if address else name
@@ -99,7 +101,7 @@ def author() -> str:
 
 
 def _setting(key: str) -> str:
-    """A setting of git; nothing where there is none."""
+    """A setting of git; empty if it is not set."""
     try:
         return _git("config", key, folder=Path.cwd())
     except (OSError, subprocess.SubprocessError):

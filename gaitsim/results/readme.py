@@ -1,4 +1,4 @@
-"""README.md of a result: name, origin, headline numbers, and the researcher's own notes."""
+"""README.md of a result: name, origin, main numbers, and the researcher's notes."""
 
 from __future__ import annotations
 
@@ -9,7 +9,13 @@ NOTES = "## Notes"
 
 
 def readme(manifest: dict[str, Any], headline: Sequence[str], before: str) -> str:
-    """The text; notes that stand in the one before are kept."""
+    """The text of the README.
+
+    Args:
+        manifest: The manifest.
+        headline: Lines with the main numbers.
+        before: The present README, whose notes are kept.
+    """
     commit = manifest.get("commit")
     origin = f"commit {commit['hash'][:12]}{' with changes' if commit['dirty'] else ''}" if commit else "no commit"
     _, _, notes = before.partition(NOTES)

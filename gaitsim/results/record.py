@@ -1,4 +1,4 @@
-"""The result of a run, a study or draws, kept run by run as they end."""
+"""The result of a run, a study or draws. Each run is stored when it ends."""
 
 from __future__ import annotations
 
@@ -63,7 +63,7 @@ class Record:
         self._held = ExitStack()
 
     def go_on(self, folder: Path, rows: list[dict[str, Any]], manifest: dict[str, Any]) -> None:
-        """Continue the result in a folder, which has these runs.
+        """Continue the result in a folder.
 
         Raises:
             CannotSave: The folder cannot be written.
@@ -102,7 +102,7 @@ class Record:
             raise self._cannot(error) from error
 
     def close(self, status: str) -> None:
-        """Say how it ended: complete or interrupted.
+        """Store how the result ended: complete or interrupted.
 
         Raises:
             CannotSave: The folder cannot be written.
@@ -116,7 +116,7 @@ class Record:
                 raise self._cannot(error) from error
 
     def _append(self, line: str) -> None:
-        """Write a line as a whole or not at all."""
+        """Write a line completely or not at all."""
         assert self.folder is not None
         path = self.folder / _ROWS
         try:
@@ -135,7 +135,7 @@ class Record:
         return CannotSave(f"{self.folder}: the result cannot be saved ({error.strerror or error}); {count} in it.")
 
     def _headline(self) -> list[str]:
-        """The first runs, and how many draws completed, one line each."""
+        """The first runs in one line each, and the number of draws that completed."""
         tally = []
         if self._draws:
             done = sum(row["status"] == "completed" for row in self._rows)

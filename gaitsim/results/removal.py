@@ -1,4 +1,4 @@
-"""Results that are removed for good."""
+"""Removal of results."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ from gaitsim.whole import PARTIAL
 
 
 def remove(folder: Path) -> None:
-    """Remove a result with all that lies in it; whole or not at all.
+    """Remove a result with all its files, completely or not at all.
 
     Raises:
-        BadResult: It is no result, or a link to one.
+        BadResult: The folder is not a result, or is a link to one.
         Locked: A search or a run is writing it.
         CannotSave: It cannot be removed.
     """

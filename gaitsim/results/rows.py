@@ -16,10 +16,14 @@ COMPARED = ("status", "score", "metrics", "steps")  # what makes two runs the sa
 
 
 def read_rows(folder: Path, begun: bool = False) -> list[dict[str, Any]]:
-    """The runs of a result; `begun`: without a last line that a writer that died left unfinished.
+    """Read the runs of a result.
+
+    Args:
+        folder: The result.
+        begun: Whether to skip an incomplete last line, which a writer that died may have left.
 
     Raises:
-        BadResult: The folder is not a result, or the result is damaged.
+        BadResult: The runs cannot be read.
     """
     path = folder / "evaluations.jsonl"
     rows: list[dict[str, Any]] = []
@@ -38,23 +42,31 @@ def read_rows(folder: Path, begun: bool = False) -> list[dict[str, Any]]:
 
 
 def outcome_of(row: Mapping[str, Any], step: float) -> Outcome:
-    """How a run ended that was read;
+    """The outcome of a stored run.
 
     Args:
-        step: Of its model, in s.
+        row: The run.
+        step: The step of its model, in s.
     """
     metrics = {name: math.nan if value is None else float(value) for name, value in row["metrics"].items()}
     return Outcome(row["status"], row["reason"], row["steps"], step, metrics, row["score"], 0.0)
 
 
 def pick_row(folder: Path, which: str) -> int:
-    """The place, from 0, of the run that `best` or its number, from 1, names.
+    """Find a run.
 
-    Best is the lowest score; without scores the first run that did not fail, or else the first.
+    The best run has the lowest score. Without scores it is the first run that did not fail, or else the first.
+
+    Args:
+        folder: The result.
+        which: `best` or the number of a run, from 1.
+
+    Returns:
+        The index of the run, from 0.
 
     Raises:
-        BadResult: The folder is not a result, or the result is damaged.
-        Usage: A word that names none.
+        BadResult: The runs cannot be read.
+        Usage: There is no such run.
     """
     rows = read_rows(folder)
     if not rows:
@@ -71,12 +83,14 @@ def pick_row(folder: Path, which: str) -> int:
 
 
 def row_words(row: Mapping[str, Any]) -> str:
-    """Whose run it is, of a cohort, and what was set in it: gain = 2, ...; or which draw it is; empty if neither."""
+    """What distinguishes a run: its body in a cohort, its settings such as gain = 2, or its draw; empty if nothing
+    does.
+    """
     said = [f"{address} = {value}" for address, value in row["settings"].items()]
     whose = [str(row["body"])] if "body" in row else []
     return ", ".join([*whose, *said, *([f"draw {row['draw']}"] if "draw" in row else [])])
 
 
 def row_starts(row: Mapping[str, Any]) -> dict[str, float]:
-    """The tuned values that a run has of its own, as a draw does, in SI, by address."""
+    """The run's own tuned values, such as those of a draw, in SI by address."""
     return {str(address): float(value) for address, value in row.get("values", {}).items()}

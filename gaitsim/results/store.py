@@ -1,4 +1,4 @@
-"""Result folders: open files, complete or absent, and a manifest that says which."""
+"""Result folders. Their files are complete or absent, and the manifest describes them."""
 
 from __future__ import annotations
 
@@ -37,13 +37,22 @@ class CannotSave(GaitsimError):
 def create_result(
     root: Path, bundle: Bundle, model: Model, xml: str, manifest: dict[str, Any], more: Mapping[str, str], move: str
 ) -> Path:
-    """A new result folder with spec, model, MJCF, components, manifest and more files; its path.
+    """Make a result folder with spec, model, MJCF, components and manifest.
 
     Args:
-        move: What helps where it cannot be written.
+        root: The folder of results.
+        bundle: The bundle.
+        model: The model.
+        xml: Its MJCF.
+        manifest: The manifest.
+        more: Further files by name.
+        move: What the message suggests if the folder cannot be written.
+
+    Returns:
+        The path of the result.
 
     Raises:
-        CannotSave: With nothing left behind.
+        CannotSave: The folder cannot be written. Nothing is left behind.
     """
     draft = None
     try:
@@ -67,10 +76,10 @@ def create_result(
 
 
 def finish(folder: Path, manifest: dict[str, Any], headline: Sequence[str]) -> None:
-    """Write the README, keeping the researcher's notes, and the final manifest.
+    """Write the final manifest and the README, whose notes are kept.
 
     Raises:
-        OSError: The file cannot be read or written.
+        OSError: A file cannot be written.
     """
     path = folder / "README.md"
     before = path.read_text(encoding="utf-8", errors="backslashreplace") if path.is_file() else ""
@@ -79,7 +88,7 @@ def finish(folder: Path, manifest: dict[str, Any], headline: Sequence[str]) -> N
 
 
 def row_data(settings: Mapping[str, str], outcome: Outcome) -> dict[str, Any]:
-    """One run as data; numbers that are not finite are null."""
+    """One run as plain data. Numbers that are not finite become null."""
     return {
         "settings": dict(settings),
         "status": outcome.status,
@@ -99,10 +108,10 @@ def _free_name(root: Path, name: str) -> Path:
 
 
 def save_trajectory(path: Path, outcome: Outcome) -> None:
-    """Write a recorded run as CSV: time and every signal, each with its unit.
+    """Write the trajectory of a run as CSV.
 
     Raises:
-        CannotSave: The folder cannot be written.
+        CannotSave: The file cannot be written.
     """
     trajectory = outcome.trajectory
     assert trajectory is not None

@@ -1,6 +1,6 @@
-"""Which component files may run unasked: those that come with gaitsim, and those that were run here before.
+"""Trust in component files: those that come with gaitsim and those that were run here before may run without asking.
 
-Where a result lies, and from which folder a command is given, says nothing about who wrote it.
+The location of a result, and the current folder, do not say who wrote it.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ _MEMORY = "known_components"
 
 
 class Untrusted(GaitsimError):
-    """A result holds code that this machine has not seen."""
+    """A result has code that this machine does not know."""
 
 
 def remember(bundle: Bundle) -> None:
-    """Note that a result's components were run here."""
+    """Store that the components of a bundle were run here."""
     known, folder = _known_here(), state_folder()
     new = [digest for digest in _code_in(bundle).values() if digest not in known]
     if new and folder is not None:
@@ -34,10 +34,14 @@ def remember(bundle: Bundle) -> None:
 
 
 def check_trust(bundle: Bundle, trusted: bool) -> None:
-    """Let a result's components run only if they are known, or with the user's word.
+    """Check that the components of a result are known.
+
+    Args:
+        bundle: The bundle of the result.
+        trusted: Whether the user trusts it.
 
     Raises:
-        Untrusted: The result has components that this machine does not trust.
+        Untrusted: Components are not known and the user did not say so.
     """
     if trusted:
         return
@@ -49,13 +53,13 @@ def check_trust(bundle: Bundle, trusted: bool) -> None:
 
 
 def strangers(bundle: Bundle) -> list[str]:
-    """The component files in Python that this machine does not know, as paths in the bundle."""
+    """The Python component files that this machine does not know, as paths in the bundle."""
     known = _known_here() | set(_shipped())
     return [path for path, digest in _code_in(bundle).items() if digest not in known]
 
 
 def _code_in(bundle: Bundle) -> dict[str, str]:
-    """The digest of each component in Python, by its path in the bundle."""
+    """The digest of each Python component, by its path in the bundle."""
     return {path: digest_of(text) for path, text in sorted(bundle.files.items()) if path.endswith(".py")}
 
 

@@ -1,4 +1,4 @@
-"""Tuned values beside a spec: walk.tuned.yaml, written by `optimize --adopt`, never by hand."""
+"""Tuned values beside a spec: walk.tuned.yaml, written by `optimize --adopt`."""
 
 from __future__ import annotations
 
@@ -22,26 +22,32 @@ _ANEW = "write the file anew with optimize --adopt."
 
 @dataclass(frozen=True)
 class TunedValues:
-    """What a file of tuned values holds: the result that they come from, and the values in SI."""
+    """The content of a file of tuned values: the result that they come from, and the values in SI."""
 
     result: str
     values: dict[str, float]
 
 
 def tuned_path(spec: Path) -> Path:
-    """Where the tuned values of a spec lie."""
+    """The path of the tuned values of a spec."""
     return spec.with_name(f"{spec.stem}.tuned.yaml")
 
 
 def write_tuned(spec: Path, result: str, score: float, values: Mapping[str, float], units: Mapping[str, Unit]) -> Path:
-    """Write the tuned values of a spec, as text that reads back bit for bit; the path.
+    """Write the tuned values of a spec as text that reads back bit for bit.
 
     Args:
-        values: In SI.
-        units: In which they are written.
+        spec: The spec.
+        result: The name of the result.
+        score: The score of the values.
+        values: Values in SI by address.
+        units: The units in which they are written.
+
+    Returns:
+        The path of the file.
 
     Raises:
-        OSError: The file cannot be read or written.
+        OSError: The file cannot be written.
     """
     path = tuned_path(spec)
     write_whole(path, tuned_text(result, score, values, units))
@@ -49,10 +55,13 @@ def write_tuned(spec: Path, result: str, score: float, values: Mapping[str, floa
 
 
 def tuned_text(result: str, score: float | None, values: Mapping[str, float], units: Mapping[str, Unit]) -> str:
-    """A file of tuned values;
+    """The text of a file of tuned values.
 
     Args:
-        score: None where it is not known. Else as `write_tuned`.
+        result: The name of the result.
+        score: The score; None if it is unknown.
+        values: Values in SI by address.
+        units: The units in which they are written.
     """
     said = {a: v if units[a].text == "1" else units[a].exactly(v) for a, v in values.items()}
     known = {} if score is None else {"score": score}
@@ -60,10 +69,14 @@ def tuned_text(result: str, score: float | None, values: Mapping[str, float], un
 
 
 def read_tuned(path: Path, free: Iterable[Free]) -> TunedValues:
-    """The tuned values in a file; those of `free` in units that fit.
+    """Read a file of tuned values.
+
+    Args:
+        path: The file.
+        free: The tuned numbers of the model, whose units must fit.
 
     Raises:
-        InvalidSpec: The spec breaks a rule.
+        InvalidSpec: The file has a fault.
     """
     document = read(path)
     values, result = document.entries.get("values"), document.entries.get("result")
@@ -85,13 +98,14 @@ def read_tuned(path: Path, free: Iterable[Free]) -> TunedValues:
 
 
 def _quantity(node: Node, in_si: bool) -> Quantity:
-    """A tuned value.
+    """Read one tuned value.
 
     Args:
-        in_si: Its number is in SI already.
+        node: The value.
+        in_si: Whether its number is in SI whatever its unit, as in old files.
 
     Raises:
-        InvalidSpec: The spec breaks a rule.
+        InvalidSpec: It is not a quantity.
     """
     if isinstance(node, ScalarNode) and isinstance(node.value, str | int | float) and not isinstance(node.value, bool):
         text = str(node.value).partition(" ")[0] if in_si else node.value
@@ -105,5 +119,10 @@ def _quantity(node: Node, in_si: bool) -> Quantity:
 
 
 def problem_of(model: Model, spread: float = 1.0) -> Problem:
-    """The tuned numbers of a model as a problem; spread is a factor on the spreads that the spec gives."""
+    """The tuned numbers of a model as a problem.
+
+    Args:
+        model: The model.
+        spread: A factor on the spreads of the spec.
+    """
     return Problem(tuple(Variable(f.address, f.unit, f.low, f.high, f.start, spread * f.spread) for f in model.free))
