@@ -1,4 +1,4 @@
-"""gaitsim analyze: run a result or a spec once more, and look at everything inside it."""
+"""gaitsim analyze: run a result or a spec once more, and show everything in it."""
 
 from __future__ import annotations
 
@@ -134,7 +134,7 @@ def analyze(
 
 
 def _tell(replays: Sequence[Replay], products: Products, json: bool) -> None:
-    """The measures and what was made: on stdout."""
+    """Print the measures, and what was made."""
     from gaitsim.analysis.gait.changes import gait_changes
 
     runs = [_data(replay) for replay in replays]
@@ -168,7 +168,7 @@ def _tell(replays: Sequence[Replay], products: Products, json: bool) -> None:
 
 
 def _give_gait(replays: Sequence[Replay]) -> None:
-    """What the legs of each walker do, and how that compares with people."""
+    """Print the gait of each walker, compared with people."""
     from gaitsim.analysis.gait.changes import changes_table
     from gaitsim.analysis.gait.numbers import gait_table, norms_table
 

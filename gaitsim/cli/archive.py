@@ -1,4 +1,4 @@
-"""gaitsim archive: models with a record of what they did, and whether they still do it."""
+"""gaitsim archive: models with records of their runs, and whether they still agree."""
 
 from __future__ import annotations
 
@@ -136,7 +136,7 @@ DIFFERENCE_COLUMNS = ("model", "run", "metric", "recorded", "now", "unit", "chan
 
 
 def difference_rows(name: str, differs: Sequence[Difference]) -> list[tuple[str, ...]]:
-    """What differs, as rows of a table."""
+    """Differences as rows of a table."""
     return [
         (
             name,
@@ -201,7 +201,7 @@ def _said(value: float | str | None) -> str:
 
 
 def difference_data(one: Difference) -> dict[str, Any]:
-    """What differs, as data."""
+    """A difference as data."""
     return {**vars(one), "change": one.change}
 
 

@@ -1,4 +1,4 @@
-"""gaitsim check: is a spec sound? Nothing is simulated."""
+"""gaitsim check: check a spec without simulating it."""
 
 from __future__ import annotations
 
@@ -82,5 +82,5 @@ def check(
 
 
 def _line(fault: Fault) -> str:
-    """A fault without its line of the file."""
+    """A fault without the line of its file."""
     return ": ".join([*([str(fault.mark)] if fault.mark else []), fault.address, fault.message])

@@ -49,7 +49,7 @@ def cite(
 
 
 def _algorithm(opened: Opened) -> tuple[str, ...]:
-    """The keys of the search whose values are in use; none if nothing was tuned."""
+    """The keys of the search whose values are used; none if nothing was tuned."""
     from gaitsim.optimization.algorithms import ALGORITHMS
     from gaitsim.spec.schema import optimize_section
 

@@ -1,4 +1,4 @@
-"""gaitsim cohort: one spec over many bodies and many devices, into one table."""
+"""gaitsim cohort: one spec with many bodies and many devices, in one table."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def _report(runs: CohortRuns, wall: float, json: bool) -> None:
 
 
 def _lost(runs: CohortRuns) -> list[str]:
-    """Whose rows could not be run, and why, each reason once."""
+    """The rows that could not be run; each reason once."""
     lost = {i: found for i, found in sorted(runs.found.items()) if found.outcome.status not in ("completed", "stopped")}
     places: dict[tuple[str, str], list[int]] = {}
     for i, found in lost.items():
@@ -158,7 +158,7 @@ def _rows(numbers: list[int]) -> str:
 
 
 def _give_table(runs: CohortRuns) -> None:
-    """Bodies, what is set, how it ended, and the metrics that were asked for."""
+    """Print bodies, settings, how each row ended, and the metrics that were asked for."""
     from gaitsim.model import headed
 
     cells = runs.cells()

@@ -1,4 +1,4 @@
-"""gaitsim results compare: in what two models differ, then their runs."""
+"""gaitsim results compare: the differences of two models and of their runs."""
 
 from __future__ import annotations
 
@@ -69,7 +69,7 @@ def _tell(found: Comparison) -> None:
 
 
 def _cells(*texts: str) -> list[str]:
-    """Two texts for a table: numbers in six digits, unless they are then the same."""
+    """Two texts for a table: numbers with six digits, or with all digits if they would look equal."""
     short = [_DIGITS.sub(lambda found: f"{float(found[0]):.6g}", text) for text in texts]
     chosen = short if short[0] != short[1] else texts
     return [

@@ -1,4 +1,4 @@
-"""The only place that prints: data on stdout, talk on stderr."""
+"""The only module that prints: data to stdout, messages to stderr."""
 
 from __future__ import annotations
 
@@ -20,22 +20,26 @@ PLAIN_EVERY = 5.0  # seconds between lines of progress where stderr is no termin
 
 
 def say(text: str) -> None:
-    """Talk: on stderr, as it is."""
+    """Print a message to stderr."""
     print(text, file=sys.stderr)
 
 
 def rewrite(text: str) -> None:
-    """Talk that replaces the line before, on a terminal."""
+    """Replace the last line on a terminal."""
     print(f"\r\x1b[K{text}", end="", file=sys.stderr, flush=True)
 
 
 def progress(what: str, quiet: bool = False) -> Callable[[int, int], None]:
-    """What hears of steps done, and of how many, and shows them in one line.
+    """Make a function that shows progress in one line.
 
-    On a terminal the line is rewritten; elsewhere there is a new one every few seconds.
+    On a terminal the line is rewritten. Elsewhere a new line is printed every few seconds.
 
     Args:
-        quiet: None there.
+        what: The name of the task.
+        quiet: Whether to print nothing if stderr is not a terminal.
+
+    Returns:
+        A function of the number of steps that are done, and the number of all steps.
     """
     terminal, said = sys.stderr.isatty(), time.monotonic()
 
@@ -52,7 +56,12 @@ def progress(what: str, quiet: bool = False) -> Callable[[int, int], None]:
 
 @contextmanager
 def waiting(what: str, quiet: bool = False) -> Iterator[None]:
-    """Say every few seconds how long something has taken that tells nothing of itself, such as one long run."""
+    """Print the elapsed time every few seconds during a block without progress of its own, such as one long run.
+
+    Args:
+        what: The name of the task.
+        quiet: Whether to print nothing if stderr is not a terminal.
+    """
     over, began = Event(), time.monotonic()
 
     def talk() -> None:
@@ -76,43 +85,43 @@ def waiting(what: str, quiet: bool = False) -> Iterator[None]:
 
 @dataclass(frozen=True)
 class Talk:
-    """What a study says, on stderr.
+    """The listener of a study that prints to stderr.
 
     Attributes:
-        quiet: No lines of progress where that is no terminal.
+        quiet: Whether to print no progress if stderr is not a terminal.
     """
 
     quiet: bool = False
 
     def say(self, text: str) -> None:
-        """As it is."""
+        """Print a message."""
         say(text)
 
     def say_error(self, error: GaitsimError) -> None:
-        """Every fault of it."""
+        """Print every fault of an error."""
         say_error(error)
 
     def progress(self, what: str) -> Callable[[int, int], None]:
-        """One line of progress."""
+        """Show progress in one line."""
         return progress(what, self.quiet)
 
     def waiting(self, what: str) -> AbstractContextManager[None]:
-        """A line every few seconds."""
+        """Print the elapsed time every few seconds."""
         return waiting(what, self.quiet)
 
 
 def give(text: str) -> None:
-    """Data: on stdout, as it is."""
+    """Print data to stdout."""
     print(text)
 
 
 def give_json(data: Any) -> None:
-    """One JSON document on stdout; a number that is not finite is null."""
+    """Print one JSON document to stdout. Numbers that are not finite become null."""
     print(json.dumps(_finite(data), indent=2, ensure_ascii=False))
 
 
 def give_table(columns: Sequence[str], rows: Iterable[Sequence[str]], title: str = "") -> None:
-    """A table on stdout; as wide as it must be where stdout is no terminal."""
+    """Print a table to stdout. It has its full width if stdout is not a terminal."""
     terminal = sys.stdout.isatty()
     heading, *others = rows_of(columns, [*rows], shutil.get_terminal_size().columns if terminal else None)
     if title:
@@ -123,13 +132,21 @@ def give_table(columns: Sequence[str], rows: Iterable[Sequence[str]], title: str
 
 
 def say_error(error: GaitsimError) -> None:
-    """Every fault of an error, one after the other."""
+    """Print every fault of an error."""
     for fault in error.faults:
         say(str(fault))
 
 
 def code_after(error: GaitsimError | None, code: int) -> int:
-    """Say what was not kept, if something was not; the exit code of a command that had `code` otherwise."""
+    """Print the error of saving, if there is one.
+
+    Args:
+        error: The error; None if everything was saved.
+        code: The exit code without it.
+
+    Returns:
+        The exit code of the command.
+    """
     if error is None:
         return code
     say_error(error)
@@ -154,7 +171,7 @@ def error_data(error: GaitsimError) -> dict[str, Any]:
 
 
 def shown(number: float | None) -> str:
-    """A number for a table."""
+    """A number as text for a table."""
     return "-" if number is None or not math.isfinite(number) else f"{number:.5g}"
 
 

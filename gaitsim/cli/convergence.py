@@ -1,4 +1,4 @@
-"""gaitsim check --convergence: the table of what a half and a quarter of the step change."""
+"""gaitsim check --convergence: a table of the changes with a half and a quarter of the step."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ if TYPE_CHECKING:
 
 
 def give(found: StepConvergence, tolerance: float) -> None:
-    """The table on stdout, and on stderr how many metrics change more than the tolerance."""
+    """Print the table to stdout, and to stderr how many metrics change more than the tolerance."""
     columns = ["metric", "unit", *(f"at {_milliseconds(step)}" for step in found.steps)]
     rows = [
         (

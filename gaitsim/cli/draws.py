@@ -1,4 +1,4 @@
-"""gaitsim run --draws: the same run with every tuned number a little different, and what becomes of it."""
+"""gaitsim run --draws: runs with small random changes of every tuned number."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 def drawn_data(
     draws: Draws, model: Model, outcomes: Sequence[Outcome], each_run: Sequence[Mapping[str, Any]]
 ) -> dict[str, Any]:
-    """What --json says of the draws around a model's starts, together and of each run."""
+    """The draws as data for --json: a summary, and each run."""
     from gaitsim.results.tuned import problem_of
 
     units, values = model.metrics, draws.values(problem_of(model))
@@ -42,7 +42,7 @@ def drawn_data(
 
 
 def give_draws(draws: Draws, model: Model, outcomes: Sequence[Outcome]) -> None:
-    """The table over all draws around a model's starts, and how many completed: on stdout."""
+    """Print the table over all draws, and how many completed."""
     found, units = _summaries(outcomes), model.metrics
     lacking = any(each.count < draws.count for each in found)
     rows = [_row(each, units, lacking) for each in found]

@@ -1,4 +1,4 @@
-"""Ctrl-C, and SIGTERM, which job queues send: the first ends a command in order, the next one at once."""
+"""Ctrl-C and SIGTERM, which job queues send: the first ends a command in an orderly way, the next one at once."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ _HEARD = (signal.SIGINT, signal.SIGTERM)
 
 @contextmanager
 def heard_once() -> Iterator[None]:
-    """Within, the first of these signals is a KeyboardInterrupt; the next ends this process without a word.
+    """In this block, the first of these signals raises KeyboardInterrupt; the next one ends the process silently.
 
-    What is ignored stays so, as of a command that a shell runs in the background.
+    Ignored signals stay ignored, as for a command that a shell runs in the background.
     """
     if threading.current_thread() is not threading.main_thread():
         yield

@@ -1,4 +1,4 @@
-"""gaitsim library: what components there are, and what each declares."""
+"""gaitsim library: the components, and their declarations."""
 
 from __future__ import annotations
 
@@ -165,7 +165,7 @@ def new_component_file(
 
 
 def _asked(what: list[str], folders: list[Path] | None) -> Iterator[tuple[str, Library]]:
-    """Each component that is to be checked, with the library that it is in."""
+    """Each component that should be checked, with its library."""
     from gaitsim.components.find import Library, shown
     from gaitsim.components.review import components_in
     from gaitsim.errors import Usage
@@ -184,7 +184,7 @@ def _asked(what: list[str], folders: list[Path] | None) -> Iterator[tuple[str, L
 
 
 def _of_native_code(reference: str, parts: Library) -> list[Fault]:
-    """Why a component cannot become native code."""
+    """The faults that prevent native code of a component."""
     from gaitsim.compiler.kernel import address_of
     from gaitsim.components.primitive import Primitive
     from gaitsim.errors import InvalidComponent
@@ -199,7 +199,7 @@ def _of_native_code(reference: str, parts: Library) -> list[Fault]:
 
 
 def _drawn(component: ComponentFile, settings: list[str], folder: Path) -> Path | None:
-    """The picture of a component's curves, or a line on why there is none."""
+    """Draw the curves of a component, or print why there are none."""
     from gaitsim.analysis.models.curves import draw
     from gaitsim.results.store import CannotSave
     from gaitsim.simulation.curves import graphs, why_no_curves
@@ -220,7 +220,7 @@ def _drawn(component: ComponentFile, settings: list[str], folder: Path) -> Path 
 
 
 def _values(component: ComponentFile, settings: list[str]) -> dict[str, float]:
-    """Parameters in SI, from NAME=VALUE.
+    """Read parameters in SI from NAME=VALUE.
 
     Raises:
         Usage: The request does not fit.
@@ -243,7 +243,7 @@ def _values(component: ComponentFile, settings: list[str]) -> dict[str, float]:
 
 
 def _said(value: Any) -> bool:
-    """Whether a field says something; those that say nothing in any row have no column."""
+    """Whether a field has a value. Fields without a value in any row get no column."""
     return value is not None and value is not False and value not in ("", (), [], {})
 
 

@@ -1,4 +1,4 @@
-"""gaitsim library promote: a prototype becomes a component of a library."""
+"""gaitsim library promote: move a component of a project to a library."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""gaitsim library used-by, test and history: who depends on a component, and what a change does to them."""
+"""gaitsim library used-by, test and history: the users of a component, and the effect of a change on them."""
 
 from __future__ import annotations
 
@@ -129,7 +129,7 @@ _WORDS = {
 
 
 def give_tested(reference: str, found: Sequence[Tested]) -> None:
-    """What users of a component do with its present version: tables, and on stderr what could not be run."""
+    """Print the results of a component's users with its present version; to stderr what could not be run."""
     wrong = [one for one in found if one.state in ("differs", "error")]
     rows = [row for one in found for row in difference_rows(one.name, one.differs)]
     if rows:
@@ -146,7 +146,7 @@ def give_tested(reference: str, found: Sequence[Tested]) -> None:
 
 
 def scope_of(where: list[str] | None, results: list[Path] | None, library: list[Path] | None) -> Scope:
-    """Where users are looked for, as options say."""
+    """The scope that options describe."""
     from gaitsim.study.uses import Scope
 
     return Scope(tuple(where or ()), tuple(results or [results_folder()]), tuple(library or ()))
@@ -161,7 +161,7 @@ def _few(names: tuple[str, ...]) -> str:
 
 
 def tested_data(one: Tested) -> dict[str, object]:
-    """What one user does, as data."""
+    """The result of one user as data."""
     return {
         "what": one.what,
         "name": one.name,

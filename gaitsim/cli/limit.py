@@ -1,4 +1,4 @@
-"""gaitsim limit: how far numbers of a spec can go before a run ends, by bisection."""
+"""gaitsim limit: find by bisection how far numbers of a spec can be varied before a run fails."""
 
 from __future__ import annotations
 

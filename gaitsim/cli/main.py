@@ -80,7 +80,7 @@ def _main(
 
 
 def _program(commands: Mapping[str, Callable[..., Any]], groups: Mapping[str, typer.Typer]) -> typer.Typer:
-    """The program with some commands and groups of commands."""
+    """Make the program with some commands and groups of commands."""
     made = typer.Typer(
         help="Simulate, tune and analyze neuromuscular models of gait.",
         no_args_is_help=True,
@@ -100,7 +100,12 @@ app = _program(COMMANDS, GROUPS)
 
 
 def program_for(words: Sequence[str]) -> typer.Typer:
-    """The program with the one command that is called, as Typer would build all; the whole one if that is none."""
+    """The program for a command line. It has only the command that is called, because Typer would build all others
+    too.
+
+    Args:
+        words: The words after `gaitsim`. If the first is not a command, the program has all commands.
+    """
     name = words[0] if words else ""
     if name in COMMANDS:
         return _program({name: COMMANDS[name]}, {})
@@ -108,7 +113,7 @@ def program_for(words: Sequence[str]) -> typer.Typer:
 
 
 def main(arguments: list[str] | None = None) -> None:
-    """Run one command; the exit code tells the kind of failure."""
+    """Run one command. The exit code says which kind of failure occurred."""
     gc.set_threshold(_GARBAGE)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
@@ -124,7 +129,11 @@ def main(arguments: list[str] | None = None) -> None:
 
 
 def _ran(words: list[str]) -> object:
-    """What a command returns, or the exit code of its failure."""
+    """Run a command.
+
+    Returns:
+        Its return value, or the exit code of its failure.
+    """
     try:
         _check_words(words)
         return program_for(words)(args=words, prog_name="gaitsim", standalone_mode=False)
@@ -146,7 +155,7 @@ def _check_words(words: list[str]) -> None:
     """Refuse command lines that cannot be used.
 
     Raises:
-        Usage: A word that is no text, and for a folder that is gone.
+        Usage: A word is not text, or the current folder was removed.
     """
     for word in words:
         try:
@@ -161,7 +170,7 @@ def _check_words(words: list[str]) -> None:
 
 
 def _other(error: Exception) -> int:
-    """What the command-line library refuses; everything else is a bug of ours."""
+    """The exit code of errors of the command-line library. All others are bugs of gaitsim."""
     if hasattr(error, "format_message") and hasattr(error, "exit_code"):
         # Typer passes on the words of pydantic, and this prefix with them.
         console.say(f"gaitsim: {error.format_message().replace('Value error, ', '')}")

@@ -1,4 +1,4 @@
-"""gaitsim new: a folder to begin with from a shipped spec, or a project from a result or a spec."""
+"""gaitsim new: a new folder from a shipped spec, or a project from a result or a spec."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""gaitsim optimize: tune a spec, on all cores or a cluster; resume what was interrupted."""
+"""gaitsim optimize: tune a spec on all cores or on a cluster; continue an interrupted search."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def optimize(
 
 
 def _search(tuning: Tuning, workplace: Workplace, may_discard: bool) -> Progress:
-    """Run the search with one line of progress; an error says how to go on."""
+    """Run the search with one line of progress. Errors say how to continue."""
     from gaitsim.cli.progress import ProgressLine
     from gaitsim.cluster.unreachable import ClusterError
     from gaitsim.results.store import CannotSave
@@ -125,7 +125,7 @@ def _interrupted(tuning: Tuning, workplace: Workplace, json: bool) -> int:
 
 
 def _again(tuning: Tuning, workplace: Workplace) -> str:
-    """The command that continues a search, where it was going on."""
+    """The command that continues the search in the same workplace."""
     return shlex.join(["gaitsim", "optimize", str(tuning.folder), "--resume", *workplace.words])
 
 

@@ -1,4 +1,4 @@
-"""Options and arguments that several commands share, and what they are about."""
+"""Options and arguments that several commands share."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from gaitsim.study.opening import Opening, open_library
 
 
 def complete_references(incomplete: str) -> list[str]:
-    """Components, for the shell's completion."""
+    """Complete components in the shell."""
     return [reference for reference in open_library(None, ()).references() if reference.startswith(incomplete)]
 
 
 def complete_kinds(incomplete: str) -> list[str]:
-    """Kinds of components, for the shell's completion."""
+    """Complete kinds of components in the shell."""
     return sorted(kind for kind in open_library(None, ()).kinds() if kind.startswith(incomplete))
 
 
@@ -66,10 +66,10 @@ def opening(
     candidate: str | None = None,
     results: Path | None = None,
 ) -> Opening:
-    """What a command is about, as its options say.
+    """What a command opens, from its options.
 
     Args:
-        results: The folder in which a result's name is looked up.
+        results: The folder in which names of results are looked up.
     """
     from gaitsim.results.manifest import result_named
 

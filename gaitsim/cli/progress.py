@@ -1,4 +1,4 @@
-"""One line of progress: rewritten on a terminal, a plain line each few seconds elsewhere."""
+"""One line of progress: rewritten on a terminal, a new line every few seconds elsewhere."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _EVERY = 0.2  # seconds between updates on a terminal
 
 
 class ProgressLine:
-    """Where a search stands, how fast it goes and how long it still takes at most."""
+    """The state of a search, its speed, and the longest remaining time."""
 
     def __init__(self, generations: int) -> None:
         self._generations = generations

@@ -1,4 +1,4 @@
-"""gaitsim projects: which projects the lab has."""
+"""gaitsim projects: list the projects of a lab."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""gaitsim results: list, show and verify what was kept, and all that is done with it."""
+"""gaitsim results: list, show and verify results, and commands on their files."""
 
 from __future__ import annotations
 
@@ -143,7 +143,7 @@ def verify(
 
 
 def _why(largest: float, changed: list[str]) -> str:
-    """What is said of a result that does not reproduce."""
+    """The message about a result that does not reproduce."""
     far = (
         f"numbers differ by up to {largest:.1e} of their value" if math.isfinite(largest) else "the runs went otherwise"
     )

@@ -1,4 +1,4 @@
-"""gaitsim run: simulate a spec once, once for each row of a study, or once for each draw around its tuned values."""
+"""gaitsim run: simulate a spec once, once for each row of a study, or once for each draw."""
 
 from __future__ import annotations
 
@@ -120,7 +120,7 @@ def _report(runs: Runs, json: bool) -> None:
 
 
 def _say_endings(runs: Runs) -> None:
-    """Which runs failed, and why; of draws also which ones were stopped."""
+    """Print which runs failed, and why; of draws also which ones were stopped."""
     for number, (row, outcome) in enumerate(zip(runs.rows, runs.outcomes, strict=True), start=1):
         words = [f"{address} = {value}" for address, value in row.settings.items()]
         which = f"draw {number}: " if runs.draws else f"{', '.join(words)}: " if words else ""

@@ -1,4 +1,4 @@
-"""Tables as lines of text. No library draws them, because loading one would take as long as a short run."""
+"""Tables as lines of text. No library is used, because loading one takes as long as a short run."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ _LEAST = 4  # letters of a column, however narrow the terminal is
 
 
 def rows_of(columns: Sequence[str], rows: Sequence[Sequence[str]], width: int | None = None) -> Iterator[list[str]]:
-    """The lines of the heading and of each row of a table; a cell may have several lines.
+    """The lines of the heading and of each row of a table. A cell may have several lines.
 
     Args:
-        width: Of the terminal, within which long cells are folded; None folds nothing.
+        columns: The headings.
+        rows: The cells of each row.
+        width: The width of the terminal, to which long cells are folded; None folds nothing.
     """
     cells = [[cell.expandtabs().splitlines() or [""] for cell in row] for row in (columns, *rows)]
     widths = [max(_width(line) for cell in column for line in cell) for column in zip(*cells, strict=True)]
@@ -31,13 +33,13 @@ def _line(pieces: Sequence[str], widths: Sequence[int]) -> str:
 
 
 def _narrow(widths: list[int], room: int) -> None:
-    """Take from the widest column until all fit."""
+    """Make the widest columns narrower until all fit."""
     while sum(widths) > room and max(widths) > _LEAST:
         widths[widths.index(max(widths))] -= 1
 
 
 def _folded(text: str, most: int) -> Iterator[str]:
-    """Pieces of a line that are not too wide, between words where there are some."""
+    """Pieces of a line up to a width, divided between words where possible."""
     while _width(text) > most:
         end = next(i for i in range(len(text), 0, -1) if i == 1 or _width(text[:i]) <= most)
         space = end if text[end] == " " else text.rfind(" ", 0, end)
@@ -47,7 +49,9 @@ def _folded(text: str, most: int) -> Iterator[str]:
 
 
 def _width(text: str) -> int:
-    """How many places a terminal gives a text: two to some letters of East Asia, none to accents of their own."""
+    """The number of columns that a text takes on a terminal: two for some East Asian letters, none for combining
+    accents.
+    """
     if text.isascii():
         return len(text)
     return sum(2 if unicodedata.east_asian_width(c) in "WF" else not unicodedata.combining(c) for c in text)

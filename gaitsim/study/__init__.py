@@ -1,1 +1,1 @@
-"""The application: open, run, tune, look for limits and analyze, as functions that return values."""
+"""The application: open, run, tune, find limits and analyze, as functions that return values."""

@@ -1,4 +1,6 @@
-"""Is a changed component accepted? What uses it is run again with it, and compared with what was recorded."""
+"""Acceptance of a changed component: everything that uses it is run again with it and compared with what was
+recorded.
+"""
 
 from __future__ import annotations
 
@@ -29,12 +31,12 @@ RELATIVE = 1e-6  # a result has no tolerances of its own; what rounding does to 
 
 @dataclass(frozen=True)
 class Tested:
-    """What the component does to one user of it.
+    """The effect of the component on one of its users.
 
     Attributes:
-        what: Spec or result.
-        before: The version that its record or its copy was made with.
-        state: Holds, differs, same (the version is the recorded one), unrecorded, or error.
+        what: "spec" or "result".
+        before: The version with which its record or its copy was made.
+        state: "holds", "differs", "same" (the version is the recorded one), "unrecorded", or "error".
     """
 
     what: str
@@ -48,7 +50,13 @@ class Tested:
 def tested(reference: str, scope: Scope, trusted: bool, listener: Listener) -> Iterator[Tested]:
     """Run every user of a component with its present version, and compare with its record.
 
-    One that cannot be run costs only itself.
+    A user that cannot be run does not stop the others.
+
+    Args:
+        reference: The component, such as muscle/geyer2003.
+        scope: Where users are searched for.
+        trusted: Whether components of results may run that this machine does not know.
+        listener: Receives progress.
 
     Raises:
         Usage: There is no such component.
@@ -70,7 +78,7 @@ def tested(reference: str, scope: Scope, trusted: bool, listener: Listener) -> I
 
 
 def _of_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[Tested]:
-    """The specs with records; those without are named."""
+    """The specs that use it; for those without a record, only their names."""
     users = list(using_specs(reference, scope, listener))
     with_record = [user.archived for user in users if record_path(user.archived.path).is_file()]
     verdicts = {verdict.archived.path: verdict for verdict in checked(with_record, listener)}
@@ -86,7 +94,7 @@ def _of_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[Test
 
 
 def _present(library: Library) -> dict[str, str]:
-    """The texts of the libraries as they stand now, by their places in a bundle."""
+    """The present texts of the libraries, by their places in a bundle."""
     folders = reversed(library.folders)
     files = {f"{COMPONENTS}/{p.parent.name}/{p.name}": p for f in folders for p in sorted(f.glob("*/*")) if _is_code(p)}
     return {place: path.read_text(encoding="utf-8") for place, path in files.items()}
@@ -97,9 +105,9 @@ def _is_code(path: Path) -> bool:
 
 
 def _with(bundle: Bundle, reference: str, texts: Mapping[str, str]) -> Bundle:
-    """A bundle with the present version of a component, and of files that it shares, in the place of its copies.
+    """A bundle with the present version of a component, and of its shared files, instead of its copies.
 
-    What a new version needs and the result does not have comes from the libraries.
+    Files that the new version needs and the result lacks come from the libraries.
     """
     place = f"{COMPONENTS}/{reference}"
     others = {path: text for path, text in bundle.files.items() if path.rpartition(".")[0] != place}
@@ -110,7 +118,7 @@ def _with(bundle: Bundle, reference: str, texts: Mapping[str, str]) -> Bundle:
 
 
 def _of_result(user: UsingResult, bundle: Bundle) -> Iterator[Difference]:
-    """What another bundle changes in a result: in every run, or in the best candidate of a search."""
+    """The differences that another bundle makes to a result: in every run, or in the best candidate of a search."""
     mode: Mode = "normal" if user.mode == "normal" else "rapid"
     if user.kind == "optimize":
         best = pick(user.folder, "best")
@@ -130,7 +138,7 @@ def _of_result(user: UsingResult, bundle: Bundle) -> Iterator[Difference]:
 
 
 def _row(data: Mapping[str, Any], units: Mapping[str, str]) -> Row:
-    """A run as a record has it, with a tolerance for what rounding does."""
+    """A run in the form of a record, with a tolerance for rounding."""
     numbers = {STEPS: (float(data["steps"]), "1"), SCORE: (data["score"], "1")}
     numbers |= {name: (value, units.get(name, "1")) for name, value in data["metrics"].items()}
     values = {n: Value(value=v, unit=unit, tolerance=RELATIVE * abs(v or 0.0)) for n, (v, unit) in numbers.items()}

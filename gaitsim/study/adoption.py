@@ -1,4 +1,4 @@
-"""gaitsim optimize --adopt: the best values beside the spec, unless better ones are there."""
+"""`gaitsim optimize --adopt`: writes the best values beside the spec, unless better ones are there."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Adoption:
-    """What became of --adopt: whether the file was written, and words that say so or why not."""
+    """The outcome of --adopt: whether the file was written, and a message about it."""
 
     written: bool
     words: str
@@ -30,8 +30,15 @@ class Adoption:
 def adopted(tuning: Tuning, request: Request, workplace: Workplace, progress: Progress, force: bool) -> Adoption:
     """Write the best values of a search beside its spec, unless the values there have a lower score.
 
+    Args:
+        tuning: The search.
+        request: What was asked of it.
+        workplace: Where it was evaluated.
+        progress: Its final state.
+        force: Whether to replace values that score better.
+
     Raises:
-        CannotSave: The folder cannot be written.
+        CannotSave: The file cannot be written.
     """
     best = progress.best
     assert best is not None and best.verdict.score is not None
@@ -52,14 +59,14 @@ def adopted(tuning: Tuning, request: Request, workplace: Workplace, progress: Pr
 
 
 def _options(request: Request, workplace: Workplace) -> list[str]:
-    """With which the command comes to this search again."""
+    """The options with which the command finds this search again."""
     return ["--smoke" if request.smoke else "--resume", *request.words, *workplace.words]
 
 
 def _reason(tuning: Tuning, path: Path, score: float) -> str:
-    """Why a file of tuned values should stay; empty if there is none, or it is no better.
+    """Why a file of tuned values is kept; empty if there is none, or if it is not better.
 
-    A recorded score may be of another objective or another model, so the values there are simulated anew.
+    The recorded score may belong to another objective or model, so the values in the file are simulated again.
     """
     if not path.exists():
         return ""

@@ -1,4 +1,4 @@
-"""Results or specs run once more, and what is drawn, filmed and written of them."""
+"""Analyses: results or specs are run once more, and figures, films, exports and reports are made of them."""
 
 from __future__ import annotations
 
@@ -24,20 +24,20 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Wanted:
-    """What is made of runs that are looked at.
+    """What an analysis makes.
 
     Attributes:
         plot: Patterns of signals, or muscles.
-        against: A signal that they are drawn against, instead of time.
-        return_map: Signals whose maxima are drawn over the maxima before.
+        against: The signal on the x axis, instead of time.
+        return_map: Signals whose maxima are drawn over the previous ones.
         export: Formats of all signals, such as sto.
-        every: Of exports, one instant in such a time as '10 ms'.
-        from_time, to_time: What is looked at, such as '2 s'.
-        video: None makes one unless `only`.
-        gif, speed, fps, size, scopes, view: Of the video; size as '1280x720'.
-        formats: Of figures.
-        only: No default figures, video or report.
-        folder: Where all goes; None for inside the result.
+        every: The time between exported instants, such as '10 ms'.
+        from_time, to_time: The part of the run that is analyzed, such as '2 s'.
+        video: Whether to make a video; None makes one unless `only`.
+        gif, speed, fps, size, scopes, view: Options of the video; size is of the form '1280x720'.
+        formats: Formats of the figures.
+        only: Whether to leave out the default figures, the video and the report.
+        folder: The output folder; None for the result.
     """
 
     plot: tuple[str, ...] = ()
@@ -60,13 +60,13 @@ class Wanted:
 
     @property
     def filmed(self) -> bool:
-        """Whether there is a video."""
+        """Whether a video is made."""
         return (not self.only or self.gif or bool(self.scopes)) if self.video is None else self.video
 
 
 @dataclass(frozen=True)
 class Analysis:
-    """Runs that were looked at, and what was made of them."""
+    """The runs that were analyzed, and the files that were made."""
 
     replays: Sequence[Replay]
     products: Products
@@ -78,13 +78,16 @@ class Analysis:
 def analyzed(openings: Sequence[Opening], candidates: Sequence[str], wanted: Wanted, listener: Listener) -> Analysis:
     """Run results or specs once more, and make what is wanted of them.
 
-    What cannot be made is in the products' `faults`; the rest is made.
+    What cannot be made is reported in the products' `faults`; everything else is made.
 
     Args:
-        candidates: Of each result.
+        openings: The results and specs.
+        candidates: The candidates of each result.
+        wanted: What to make.
+        listener: Receives progress and notices.
 
     Raises:
-        GaitsimError: Nothing can be looked at, or the folder cannot be written.
+        GaitsimError: No run can be analyzed, or the folder cannot be written.
     """
     from gaitsim.analysis.report.figures import missing
 
@@ -115,10 +118,10 @@ def analyzed(openings: Sequence[Opening], candidates: Sequence[str], wanted: Wan
 def _opened(
     openings: Sequence[Opening], candidates: Sequence[str], products: Products
 ) -> list[tuple[Path, str, Opened]]:
-    """Path, label and source of each run; what cannot be opened is said.
+    """Path, label and opened spec or result of each run. Those that cannot be opened are reported.
 
     Raises:
-        GaitsimError: Nothing can be.
+        GaitsimError: None can be opened.
     """
     found: list[tuple[Path, str, Opened]] = []
     for opening in openings:
@@ -141,10 +144,10 @@ def _opened(
 def _replayed(
     runs: list[tuple[Path, str, Opened]], window: tuple[float | None, float | None], products: Products
 ) -> list[Replay]:
-    """The runs, as far as they are looked at.
+    """The runs within the window of time. Those that cannot be analyzed are reported.
 
     Raises:
-        GaitsimError: None has an instant.
+        GaitsimError: No run has an instant there.
     """
     from gaitsim.study.replays import replay_of
 
@@ -169,7 +172,7 @@ def _looked_at(replay: Replay, window: tuple[float | None, float | None]) -> Rep
 
     Raises:
         SimulationFailed: The run failed before its first instant.
-        Usage: Nothing is in the window.
+        Usage: The window has no instant.
     """
     if not replay.times.size:
         raise SimulationFailed(f"{replay.label}: nothing to look at; the run {replay.ending}")
@@ -186,7 +189,7 @@ def _looked_at(replay: Replay, window: tuple[float | None, float | None]) -> Rep
 def _asked(
     replays: list[Replay], plot: Sequence[str], against: str | None, return_maps: Sequence[str]
 ) -> list[Callable[[], list[Drawing]]]:
-    """What --plot and --return-map draw; --plot of a muscle is its own figures."""
+    """Functions that make the figures of --plot and --return-map. For a muscle, --plot makes its own figures."""
     from gaitsim.analysis.muscles import figures as muscles
     from gaitsim.analysis.signals import plots
 
@@ -205,7 +208,7 @@ def _asked(
 
 
 def _say_lacking(replays: list[Replay], words: Sequence[str], listener: Listener) -> None:
-    """Say which runs lack a signal that others have."""
+    """Report the runs that lack a signal which others have."""
     from gaitsim.analysis.signals.plots import lacking
 
     for text in words:
@@ -215,17 +218,17 @@ def _say_lacking(replays: list[Replay], words: Sequence[str], listener: Listener
 
 
 def _default_folder(runs: list[tuple[Path, str, Opened]]) -> Path:
-    """Inside the result, or below analysis/ for a spec; a comparison has a folder of its own there."""
+    """The output folder: inside the result, or analysis/ for a spec. A comparison has a folder of its own in it."""
     path, _, opened = runs[0]
     own = path if opened.manifest else Path("analysis") / opened.name
     return own if len(runs) == 1 else own / "comparison"
 
 
 def writable(folder: Path) -> Path:
-    """The folder, which can be written to.
+    """Create a folder and check that it can be written.
 
     Raises:
-        CannotSave: The folder cannot be written.
+        CannotSave: It cannot.
     """
     from gaitsim.results.store import CannotSave
 

@@ -1,4 +1,4 @@
-"""The archive: models that run, each with a record of what it did, and whether they still do it."""
+"""The archive: models with a record of their runs, and the check that they still give the same results."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ _RELATIVE, _RESPONSES, _ABSOLUTE = 1e-6, 2.0, 1e-12
 
 @dataclass(frozen=True)
 class Archived:
-    """A spec of an archive, and the name by which it is called."""
+    """A spec of an archive, and its name."""
 
     name: str
     path: Path
@@ -59,7 +59,7 @@ class Archived:
 
     @cached_property
     def opened(self) -> Opened:
-        """The spec at its tuned values. Errors: as of `Opening.open`."""
+        """The spec at its tuned values. Raises the errors of `Opening.open`."""
         return Opening(self.path, folders=self.folders).open()
 
     @cached_property
@@ -82,7 +82,7 @@ class Archived:
         return [self.opened.model(row.document) for row in self.rows]
 
     def made_from(self) -> MadeFrom:
-        """The versions of what the models are made from."""
+        """The versions of everything that the models are made from."""
         assert self.models
         opened = self.opened
         tuned = digest_of(json.dumps(dict(opened.starts)))[:SHORT] if opened.starts else None
@@ -95,7 +95,9 @@ class Archived:
 
 @dataclass(frozen=True)
 class Verdict:
-    """What a check says of a model: what differs, and what it was made from that has changed; or why there is none."""
+    """The result of checking a model: the differences from its record, and what has changed since; or the reason why
+    it could not be checked.
+    """
 
     archived: Archived
     differs: tuple[Difference, ...] = ()
@@ -104,13 +106,13 @@ class Verdict:
 
     @property
     def holds(self) -> bool:
-        """Whether the model does what was recorded."""
+        """Whether the model still gives the recorded results."""
         return self.error is None and not self.differs
 
 
 @dataclass(frozen=True)
 class Recording:
-    """What became of a record: new, unchanged, changed (with what differs from the one before), or an error."""
+    """The outcome of recording a model: new, unchanged, changed (with the differences), or an error."""
 
     archived: Archived
     path: Path
@@ -120,17 +122,21 @@ class Recording:
 
 
 def versions(library: Library) -> dict[str, str]:
-    """The first letters of the digest of each component and table that was used, by reference."""
+    """The first letters of the digest of each used component and table, by reference."""
     files = {r: c.digest for r, c in library.used().items()}
     tables = {r: digest_of(table.text) for r, table in library.used_tables().items()}
     return {reference: digest[:SHORT] for reference, digest in sorted((files | tables).items())}
 
 
 def archived(words: Sequence[str], folders: Sequence[Path] = ()) -> list[Archived]:
-    """The specs that words name: names of shipped specs, specs, and folders of specs; without words all shipped ones.
+    """Find specs.
+
+    Args:
+        words: Names of shipped specs, paths of specs, and folders of specs; all shipped specs if there are none.
+        folders: Folders of more components.
 
     Raises:
-        Usage: The request does not fit.
+        Usage: There is no such spec.
     """
     known, extra = shipped_specs(), tuple(folders)
     found: dict[Path, Archived] = {}
@@ -152,7 +158,7 @@ def archived(words: Sequence[str], folders: Sequence[Path] = ()) -> list[Archive
 
 
 def recorded(specs: Sequence[Archived], listener: Listener) -> Iterator[Recording]:
-    """Run specs, thrice each, and write their records. One that cannot be recorded costs only itself."""
+    """Run specs three times each and write their records. A spec that fails does not stop the others."""
     for spec, found in _run(specs, (0.0, _NUDGE, -_NUDGE), listener):
         path = record_path(spec.path)
         try:
@@ -162,7 +168,7 @@ def recorded(specs: Sequence[Archived], listener: Listener) -> Iterator[Recordin
 
 
 def checked(specs: Sequence[Archived], listener: Listener) -> Iterator[Verdict]:
-    """Run specs again, and compare with their records. One that cannot be checked costs only itself."""
+    """Run specs again and compare with their records. A spec that fails does not stop the others."""
     known: dict[Path, Recorded] = {}
     wrong: dict[Path, GaitsimError] = {}
     for spec in specs:
@@ -185,7 +191,7 @@ def checked(specs: Sequence[Archived], listener: Listener) -> Iterator[Verdict]:
 
 
 def changes(before: MadeFrom, now: MadeFrom) -> tuple[str, ...]:
-    """What a model is made from that is not as it was, in words."""
+    """What has changed in the files that a model is made from, in words."""
     found = [word for word in ("spec", "tuned") if getattr(before, word) != getattr(now, word)]
     said = {"spec": "the spec", "tuned": "its tuned values"}
     both = {**before.components, **now.components}
@@ -203,7 +209,7 @@ Ran = list[tuple[Outcome, ...]]
 def _run(
     specs: Sequence[Archived], nudges: Sequence[float], listener: Listener
 ) -> Iterator[tuple[Archived, Ran | GaitsimError]]:
-    """The outcomes of every run of specs, once for each change of gravity; or why there are none. All in parallel."""
+    """The outcomes of all runs of specs, for each change of gravity, or the error of a spec. All run in parallel."""
     calls = []
     prepared: dict[Archived, int | GaitsimError] = {}
     hear = listener.progress("models prepared")
@@ -232,16 +238,16 @@ def _run(
 
 
 def _nudged(model: Model, share: float) -> Model:
-    """The model under a gravity that is a little different."""
+    """The model with a slightly different gravity."""
     simulate = replace(model.simulate, gravity=model.simulate.gravity * (1 + share))
     return replace(model, simulate=simulate) if share else model
 
 
 def _written(spec: Archived, path: Path, found: Ran | GaitsimError) -> Recording:
-    """Write the record of a spec, if it differs from the one that is there.
+    """Write the record of a spec if it differs from the present one.
 
     Raises:
-        GaitsimError: The request cannot be carried out.
+        GaitsimError: The runs failed, or the record cannot be written.
     """
     if isinstance(found, GaitsimError):
         raise found
@@ -266,10 +272,10 @@ def _written(spec: Archived, path: Path, found: Ran | GaitsimError) -> Recording
 
 
 def _row(spec: Archived, index: int, outcomes: Sequence[Outcome]) -> Row:
-    """One run as a record has it, from its outcome and those under another gravity, if there are some.
+    """A run in the form of a record, made from its outcome and, for tolerances, from those under another gravity.
 
     Raises:
-        SimulationFailed: One of those that fails.
+        SimulationFailed: A run fails.
     """
     first, settings = outcomes[0], spec.rows[index].settings
     if len(outcomes) > 1 and first.status == "failed":
@@ -290,7 +296,7 @@ def _numbers(outcome: Outcome) -> dict[str, float | None]:
 
 
 def _value(found: Sequence[float | None], unit: str) -> Value:
-    """A number with a tolerance from what the other runs say."""
+    """A number with the tolerance that follows from the other runs."""
     value = found[0]
     if len({each is None for each in found}) > 1:
         return Value(value=value, unit=unit, tolerance=None)
@@ -302,11 +308,11 @@ def _value(found: Sequence[float | None], unit: str) -> Value:
 
 
 def _upwards(number: float) -> float:
-    """A number of two digits that is not below another one, above 0."""
+    """A number with two digits that is not smaller than a given one, above 0."""
     step = 10.0 ** (math.floor(math.log10(number)) - 1)
     return float(f"{math.ceil(number / step - 1e-9) * step:.1e}")
 
 
 def _specs_in(folder: Path) -> list[Path]:
-    """The specs right in a folder."""
+    """The specs directly in a folder."""
     return [path for path in sorted(folder.glob("*.yaml")) if not path.stem.endswith(".tuned")]

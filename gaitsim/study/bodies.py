@@ -1,4 +1,4 @@
-"""A table of bodies: a CSV file with a row for each, and columns that are parameters of the spec."""
+"""Tables of bodies: CSV files with a row for each body and columns that are parameters of the spec."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _SAMPLE = "name,height [m],mass [kg]"
 
 @dataclass(frozen=True)
 class Body:
-    """One row of the table: its name, what it sets in the spec as text by address, and its place."""
+    """One row of the table: the name, the settings of the spec as text by address, and the place."""
 
     name: str
     settings: dict[str, str]
@@ -38,7 +38,9 @@ class Body:
 
 @dataclass(frozen=True)
 class _Column:
-    """One column: its heading, the address that it sets (none for the names), and the unit of its numbers, if said."""
+    """One column: its heading, the address that it sets (empty for names), and the unit of its numbers if it has
+    one.
+    """
 
     heading: str
     address: str
@@ -47,10 +49,18 @@ class _Column:
 
 
 def bodies_in(path: Path, opened: Opened, model: Model) -> list[Body]:
-    """The bodies of a table, checked against the spec that they are to change.
+    """Read a table of bodies, and check it against the spec.
 
-    model: of the spec as it is. What one body alone cannot be, such as a mass of 0, is not asked here.
-    Errors: Usage if there is no table, InvalidSpec with every fault of it.
+    Values that are invalid only for a single body, such as a mass of 0, are not checked here.
+
+    Args:
+        path: The table.
+        opened: The spec.
+        model: The model of the spec without changes.
+
+    Raises:
+        Usage: There is no such table.
+        InvalidSpec: The table has faults; the error holds all of them.
     """
     lines = _lines(path)
     faults = Faults()
@@ -74,7 +84,12 @@ def bodies_in(path: Path, opened: Opened, model: Model) -> list[Body]:
 
 
 def _lines(path: Path) -> list[tuple[int, list[str]]]:
-    """The rows that are not empty, each with its line. Errors: Usage, InvalidSpec."""
+    """The rows that are not empty, with their line numbers.
+
+    Raises:
+        Usage: There is no such table.
+        InvalidSpec: It is not a CSV text.
+    """
     try:
         text = path.read_bytes().decode("utf-8-sig")
     except FileNotFoundError as error:
@@ -101,7 +116,7 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
 
 
 def _columns(heading: Sequence[str], mark: Mark, faults: Faults) -> list[_Column]:
-    """What the first row says of each column."""
+    """The columns by the first row of the table."""
     columns = []
     for cell in heading:
         match = _HEADING.fullmatch(cell)
@@ -134,7 +149,7 @@ def _known(
     model: Model,
     faults: Faults,
 ) -> dict[str, str]:
-    """The unit of each column that is a number of the spec; a column that is nothing in it is a fault."""
+    """The unit of each column that is a number of the spec. A column that the spec does not have is a fault."""
     numbers = {number.address: number.unit.text for number in model.numbers}
     found = {}
     for index, column in enumerate(columns):
@@ -160,7 +175,7 @@ def _known(
 
 
 def _undeclared(column: _Column) -> str:
-    """What a spec lacks that a column of a body needs."""
+    """The message for a column of a body that the spec has no parameter for."""
     if column.heading == "sex":
         rule = "this spec has one body for both sexes, as it declares no parameter female"
         move = "leave the column out, or build the body of segments such as segment/thigh_deleva1996, female: =female"
@@ -170,7 +185,7 @@ def _undeclared(column: _Column) -> str:
 
 
 def _try(column: _Column, text: str, path: Path, opened: Opened, faults: Faults) -> None:
-    """Whether a column that is no number is something else in the spec, such as a use:."""
+    """Check whether a column without numbers is another setting of the spec, such as a use:."""
     words = ", ".join([_NAME, *_BODY])
     if "." not in column.address:
         parameters = opened.document.entries.get("parameters")
@@ -218,7 +233,7 @@ def _check_names(bodies: Sequence[Body], faults: Faults) -> None:
 
 
 def _same(bodies: Sequence[Body]) -> Iterator[tuple[str, list[Body]]]:
-    """Names that more than one body has, with these."""
+    """Names of more than one body, with these bodies."""
     for name, count in Counter(body.name for body in bodies).items():
         if count > 1:
             yield name, [body for body in bodies if body.name == name]

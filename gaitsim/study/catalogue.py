@@ -1,4 +1,4 @@
-"""What the models of an archive are, by their own words, their sources, and their records."""
+"""A list of the models in an archive, from their own descriptions, sources and records."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ _SENTENCE = re.compile(r"(?<!\bal)(?<=[a-z)])[.:](?:\s|$)")
 
 @dataclass(frozen=True)
 class Entry:
-    """One model: its name, what it says of itself and the first sentence of that, and what stands behind it.
+    """One model: its name, its description and the first sentence of it, and what it is based on.
 
     Attributes:
-        papers: Keys of the bibliography that sources of its numbers name, the most frequent first.
+        papers: Keys of the bibliography in the sources of its numbers, the most frequent first.
         tuned: The file of its tuned values.
-        extends: The spec that it varies.
-        metrics: Value and unit of each as recorded; of a study of its first run.
-        status: How that ended; "no record" without one.
-        reproduces: Known values beside those of that run.
+        extends: The spec that it extends.
+        metrics: Value and unit of each recorded metric; of a study, those of its first run.
+        status: How that run ended; "no record" without one.
+        reproduces: Known values and those of that run.
     """
 
     name: str
@@ -50,7 +50,7 @@ class Entry:
 
 
 def entries(specs: Sequence[Archived], listener: Listener) -> Iterator[Entry]:
-    """What there is to say of specs; nothing is run. Of one that cannot be read the listener hears."""
+    """The entries of specs. Nothing is run. A spec that cannot be read is reported to the listener."""
     for spec in specs:
         try:
             yield _entry(spec)
@@ -59,9 +59,11 @@ def entries(specs: Sequence[Archived], listener: Listener) -> Iterator[Entry]:
 
 
 def _entry(spec: Archived) -> Entry:
-    """Raises:
-    InvalidSpec: The spec breaks a rule.
-    BadRecord: One that was edited.
+    """The entry of a spec.
+
+    Raises:
+        InvalidSpec: The spec breaks a rule.
+        BadRecord: Its record was edited.
     """
     path = spec.path
     about = " ".join(str(plain(read(path)).get("about", "")).split())
@@ -82,7 +84,10 @@ def _entry(spec: Archived) -> Entry:
 
 
 def _known(spec: Archived, document: MappingNode, recorded: dict[str, str]) -> tuple[KnownValue, ...]:
-    """The known values of a spec; `recorded` has the units of metrics.
+    """The known values of a spec.
+
+    Args:
+        recorded: The units of its metrics.
 
     Raises:
         InvalidSpec: The spec breaks a rule.

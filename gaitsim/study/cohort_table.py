@@ -21,7 +21,7 @@ Cell = str | float | int
 
 
 class Ended(Protocol):
-    """A row that was run."""
+    """A row after its run."""
 
     @property
     def outcome(self) -> Outcome: ...
@@ -35,14 +35,19 @@ class Ended(Protocol):
 
 @dataclass(frozen=True)
 class Cells:
-    """Headings with units, and the cells below; nan where there is no number."""
+    """Headings with units and their cells; nan where there is no number."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[Cell, ...], ...]
 
 
 def cells_of(model: Model, rows: Sequence[tuple[Row, Ended]]) -> Cells:
-    """The table of rows that were run. model: of the spec as it is, whose units the numbers have."""
+    """Make the table of rows.
+
+    Args:
+        model: The model of the spec without changes; numbers are in its units.
+        rows: The rows and their results.
+    """
     addresses = list(dict.fromkeys(address for row, _ in rows for address in row.settings))
     columns = {
         address: _column(address, [row.settings.get(address, "") for row, _ in rows], model) for address in addresses
@@ -63,7 +68,11 @@ def cells_of(model: Model, rows: Sequence[tuple[Row, Ended]]) -> Cells:
 
 
 def write_cells(path: Path, cells: Cells) -> None:
-    """Write the table as CSV, with an empty cell where there is no number. Errors: CannotSave."""
+    """Write the table as CSV, with empty cells where there is no number.
+
+    Raises:
+        CannotSave: The file cannot be written.
+    """
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(cells.columns)
@@ -76,7 +85,7 @@ def write_cells(path: Path, cells: Cells) -> None:
 
 
 def _column(address: str, texts: Sequence[str], model: Model) -> tuple[str, list[Cell]]:
-    """A heading with a unit, and numbers in it; words as they are."""
+    """A heading with a unit and the numbers in it; cells that are not numbers are unchanged."""
     try:
         quantities = [parse_quantity(text) for text in texts]
     except UnknownUnit:

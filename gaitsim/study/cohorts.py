@@ -1,4 +1,6 @@
-"""One spec over many bodies and many devices: each row is a run of its own, tuned again for a while if need be."""
+"""Cohorts: one spec with many bodies and many devices. Each row is a run of its own, and is tuned again if it does
+not complete.
+"""
 
 from __future__ import annotations
 
@@ -40,10 +42,12 @@ _TABLE = "table.csv"
 
 @dataclass(frozen=True)
 class Asked:
-    """What a cohort is of: a table of bodies, values of devices as ADDRESS=VALUES, and how rows are tuned again.
+    """A request for a cohort: a table of bodies, values of devices as ADDRESS=VALUES, and how rows are tuned again.
 
-    retune: evaluations that a row may take which does not complete; 0 tunes none. seed: of each of these searches;
-    None for the spec's. metrics: what is drawn.
+    Attributes:
+        retune: The number of evaluations for a row that does not complete; 0 tunes none.
+        seed: The seed of each search; None for that of the spec.
+        metrics: The metrics to draw.
     """
 
     bodies: Path
@@ -53,7 +57,11 @@ class Asked:
     metrics: Sequence[str] = ()
 
     def check(self) -> None:
-        """Errors: Usage."""
+        """Check the request before anything runs.
+
+        Raises:
+            Usage: It does not fit.
+        """
         if self.retune < 0:
             raise Usage(f"--retune {self.retune}: a number of evaluations for each row, or 0 for none.")
         if self.seed is not None and self.seed < 0:
@@ -62,7 +70,7 @@ class Asked:
 
 @dataclass(frozen=True)
 class Found:
-    """What was found of a row: how it ended, the evaluations of its search, and the tuned values that this found."""
+    """The result of a row: how it ended, the evaluations of its search, and the tuned values that the search found."""
 
     outcome: Outcome
     evaluations: int = 0
@@ -76,10 +84,13 @@ class Found:
 
 @dataclass
 class CohortRuns:
-    """The rows of a cohort, and what was found of them as far as they were run.
+    """The rows of a cohort, and the results of those that were run.
 
-    model: of the spec as it is. metrics: what is drawn. notices: what a reader should know. found: by the number of a
-    row, from 0.
+    Attributes:
+        model: The model of the spec without changes.
+        metrics: The metrics to draw.
+        notices: Notices for the user.
+        found: Results by the number of the row, from 0.
     """
 
     cohort: Cohort
@@ -93,7 +104,7 @@ class CohortRuns:
 
     @property
     def folder(self) -> Path | None:
-        """The result folder; None if the rows were not kept."""
+        """The result folder; None if the rows were not saved."""
         return self.keeping.folder
 
     @property
@@ -103,12 +114,12 @@ class CohortRuns:
 
     @property
     def counts(self) -> dict[str, int]:
-        """How many rows ended in each way."""
+        """The number of rows that ended in each way."""
         endings = [found.ending for found in self.found.values()]
         return {ending: endings.count(ending) for ending in sorted(set(endings))}
 
     def table(self) -> pandas.DataFrame:
-        """A row for each body with each device, from 1; numbers in the units of the headings."""
+        """A row for each body with each device, from 1; numbers are in the units of the headings."""
         import pandas
 
         cells = self.cells()
@@ -116,14 +127,21 @@ class CohortRuns:
         return pandas.DataFrame(cells.rows, index=index, columns=list(cells.columns))
 
     def cells(self) -> Cells:
-        """The table, as far as rows were run."""
+        """The table of the rows that were run."""
         return cells_of(self.model, [(self.cohort.rows[i], self.found[i]) for i in sorted(self.found)])
 
     def run(self, workplace: Workplace, listener: Listener) -> None:
-        """Run all rows, keep each as it ends, and leave the table and its figures.
+        """Run all rows, save each when it ends, and write the table and its figures.
 
-        What cannot be kept is `keeping.error`. Errors: ClusterError, with the rows before it kept; KeyboardInterrupt,
-        likewise.
+        An error of saving is in `keeping.error`.
+
+        Args:
+            workplace: Where rows are evaluated.
+            listener: Receives progress.
+
+        Raises:
+            ClusterError: The workers are lost. The rows before are saved.
+            KeyboardInterrupt: The rows before are saved.
         """
         hear, rows = listener.progress("rows"), self.cohort.rows
         try:
@@ -140,7 +158,7 @@ class CohortRuns:
             self._draw()
 
     def _endings(self, workplace: Workplace, listener: Listener) -> Iterator[tuple[int, Found]]:
-        """The rows that are not known yet, as they end."""
+        """The results of the rows that are not known yet, as they end."""
         missing = [Candidate(0, i, (float(i),)) for i in range(len(self.cohort.rows)) if i not in self.found]
         if not missing:
             return
@@ -154,7 +172,7 @@ class CohortRuns:
             evaluator.close()
 
     def _close(self, status: str) -> None:
-        """The rows in their order, and the table."""
+        """Sort the saved rows, and write the table."""
         places = {_key(row.body, row.settings): i for i, row in enumerate(self.cohort.rows)}
         self.keeping.arrange(lambda row: places[_key(row["body"], row["settings"])])
         if self.folder and self.found:
@@ -177,10 +195,20 @@ class CohortRuns:
 
 
 def cohort_runs(opening: Opening, asked: Asked, mode: Mode, root: Path | None) -> CohortRuns:
-    """The rows of a cohort of what is opened; nothing is run yet.
+    """Prepare a cohort. Nothing is run yet.
 
-    root: where the result folder goes; None keeps nothing.
-    Errors: Usage, InvalidSpec (of the table: with every fault), InvalidComponent, BadResult, Untrusted.
+    Args:
+        opening: The spec.
+        asked: The request.
+        mode: Native code ("rapid") or plain Python ("normal").
+        root: The folder of results; None saves nothing.
+
+    Raises:
+        Usage: The request does not fit.
+        InvalidSpec: The spec or the table has faults; the error holds all of the table's.
+        InvalidComponent: A component file breaks the contract.
+        BadResult: The folder is not a result, or the result is damaged.
+        Untrusted: The result has components that this machine does not trust.
     """
     asked.check()
     if opening.names_result:
@@ -203,9 +231,16 @@ def cohort_runs(opening: Opening, asked: Asked, mode: Mode, root: Path | None) -
 
 
 def resumed_cohort(opening: Opening) -> CohortRuns:
-    """The cohort that a result began; what it has of it is not run again.
+    """Open the cohort of a result to continue it. Its finished rows are not run again.
 
-    Errors: Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted, Locked, CannotSave.
+    Raises:
+        Usage: The result is not that of a cohort, or was made with other versions.
+        InvalidSpec: Its spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
+        BadResult: The folder is not a result, or the result is damaged.
+        Untrusted: The result has components that this machine does not trust.
+        Locked: Another process writes it.
+        CannotSave: The folder cannot be written.
     """
     if not opening.names_result:
         rule = f"{opening.path} is a spec; name the result of the cohort that was begun"
@@ -237,13 +272,17 @@ def resumed_cohort(opening: Opening) -> CohortRuns:
 
 
 def _devices(opened: Opened, vary: Sequence[str]) -> list[dict[str, str]]:
-    """What is set of devices: the spec's own study combined with each --vary; one empty row if there is neither."""
+    """The settings of devices: the spec's own study combined with each --vary; one empty row if there is neither."""
     rows = variants(opened.document, vary)
     return [*{_key("", row.settings): row.settings for row in rows}.values()]
 
 
 def _crossed(bodies: Sequence[Body], devices: Sequence[dict[str, str]], path: Path) -> Iterator[Row]:
-    """Every body with every device. Errors: InvalidSpec for what both of them set."""
+    """Every body with every device.
+
+    Raises:
+        InvalidSpec: Both set the same address.
+    """
     both = [address for address in bodies[0].settings if any(address in device for device in devices)]
     if both:
         rule = f"{', '.join(both)} is a column here and varied as well; leave it out of one of them"
@@ -254,9 +293,11 @@ def _crossed(bodies: Sequence[Body], devices: Sequence[dict[str, str]], path: Pa
 
 
 def _models(opened: Opened, cohort: Cohort, bodies: Sequence[Body]) -> list[Model]:
-    """The models of each body and of each device, whose components the bundle must have.
+    """The models of each body and of each device; the bundle needs their components.
 
-    Errors: InvalidSpec, InvalidComponent, from the first, if none is valid.
+    Raises:
+        InvalidSpec: None is valid; the error is that of the first.
+        InvalidComponent: Likewise.
     """
     count = len(cohort.rows) // len(bodies)
     models, faults = list[Model](), list[InvalidSpec | InvalidComponent]()
@@ -273,7 +314,11 @@ def _models(opened: Opened, cohort: Cohort, bodies: Sequence[Body]) -> list[Mode
 
 
 def _check_metrics(metrics: Sequence[str], model: Model) -> None:
-    """Errors: Usage for a metric that is to be drawn and is none."""
+    """Check that the metrics to draw exist.
+
+    Raises:
+        Usage: One does not.
+    """
     from gaitsim.errors import did_you_mean
 
     for name in metrics:
@@ -282,7 +327,11 @@ def _check_metrics(metrics: Sequence[str], model: Model) -> None:
 
 
 def _check_tunable(asked: Asked, model: Model, spec: Path) -> None:
-    """Errors: InvalidSpec if rows are to be tuned of a spec that cannot be."""
+    """Check that rows can be tuned, if that is asked for.
+
+    Raises:
+        InvalidSpec: The spec tunes nothing or has no objective.
+    """
     if asked.retune and not (model.free and model.objective):
         lacks = "nothing is tuned in this spec" if model.objective else "this spec has no objective"
         raise InvalidSpec(Fault(f"{lacks}, so no row can be tuned again; leave out --retune.", Mark(str(spec))))

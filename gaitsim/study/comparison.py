@@ -1,4 +1,4 @@
-"""Two results or specs beside each other: in what their models differ, then their runs, in numbers and figures."""
+"""Comparison of two results or specs: the differences of their models, and their runs in numbers and figures."""
 
 from __future__ import annotations
 
@@ -21,10 +21,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Pair:
-    """A number that both runs may have; nan for none.
+    """A number of both runs; nan for a run without it.
 
     Attributes:
-        unit: Of both.
+        unit: The unit of both.
     """
 
     name: str
@@ -39,21 +39,21 @@ class Pair:
 
     @property
     def percent(self) -> float:
-        """The difference in % of the first; nan where that is 0."""
+        """The difference in % of the first; nan if that is 0."""
         return 100 * self.difference / abs(self.first) if self.first else math.nan
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """How two runs differ.
+    """The differences of two runs.
 
     Attributes:
-        labels: What they are called.
-        changes: Of their models.
-        metrics: What their measures say, and their costs.
+        labels: Their names.
+        changes: The differences of their models.
+        metrics: Their metrics and costs.
         gait: Means over strides, of two walkers.
         replays: The runs.
-        products: Figures, with what could not be made.
+        products: The figures, and what could not be made.
     """
 
     labels: tuple[str, str]
@@ -67,16 +67,22 @@ class Comparison:
 def compared(
     first: Opening, second: Opening, listener: Listener, figures: bool = True, folder: Path | None = None
 ) -> Comparison:
-    """Compare two results or specs; each is run once more.
+    """Compare two results or specs. Each is run once more.
 
     Args:
-        first, second: What is compared.
-        listener: Hears what a reader should know of the runs.
-        figures: Whether the runs are drawn over one another.
-        folder: Where the figures go; None for a folder in the second result, or below analysis/ of a spec.
+        first: The first result or spec.
+        second: The second one.
+        listener: Receives notices about the runs.
+        figures: Whether to draw the runs over one another.
+        folder: The folder of the figures; None for a folder in the second result, or in analysis/ for a spec.
 
     Raises:
-        BadResult, Untrusted, InvalidSpec, InvalidComponent, Usage, CannotSave.
+        BadResult: A folder is not a result, or a result is damaged.
+        Untrusted: A result has components that this machine does not trust.
+        InvalidSpec: A spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
+        Usage: A result is a study, and no run of it is named.
+        CannotSave: The figures cannot be written.
     """
     from gaitsim.study.analyses import writable
 
@@ -99,7 +105,7 @@ def compared(
 
 
 def _labels(first: Path, second: Path) -> tuple[str, str]:
-    """Names of the two; their paths if the names are one."""
+    """The names of the two; their paths if the names are equal."""
     names = (
         first.stem if first.suffix == ".yaml" else first.name,
         second.stem if second.suffix == ".yaml" else second.name,
@@ -129,7 +135,7 @@ def _metrics(replays: Sequence[Replay]) -> list[Pair]:
 
 
 def gait_pairs(replays: Sequence[Replay]) -> list[Pair]:
-    """Means over the strides of both legs; nothing unless both walk."""
+    """Means over the strides of both legs; none unless both models walk."""
     from gaitsim.analysis.gait.changes import gait_changes
 
     rows = gait_changes(replays)

@@ -1,4 +1,4 @@
-"""The periodic gait of a model: the fixed point of its return map, found by Newton's method, and its eigenvalues."""
+"""Periodic gaits: the fixed point of a model's return map, found by Newton's method, and its eigenvalues."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ class Cycle:
     """A periodic gait.
 
     Attributes:
-        start: Parameters of the spec at its section, such as `initial_apex_height`.
-        metrics: The signals of all sections, after a whole cycle. Both are in SI.
-        units: Those that they have outside.
-        eigenvalues: Those of the map, the greatest first.
-        slopes: Its derivatives, a row for each number of the start.
-        period: From section to section, in s.
-        distance: How far the gait still is from itself, in SI.
-        runs: How many simulations it took.
+        start: The values in SI of parameters at its section, such as `initial_apex_height`.
+        metrics: The signals of all sections after a whole cycle, in SI.
+        units: The units in which they are shown.
+        eigenvalues: The eigenvalues of the map, largest magnitude first.
+        slopes: The derivatives of the map: a row for each number of the start.
+        period: The time from section to section, in s.
+        distance: How far one cycle leads from its start, in SI.
+        runs: The number of simulations that were needed.
     """
 
     start: Mapping[str, float]
@@ -49,21 +49,21 @@ class Cycle:
 
     @property
     def stable(self) -> bool:
-        """Whether small disturbances die out."""
+        """Whether small disturbances decay."""
         return max(map(abs, self.eigenvalues)) < 1
 
     def shown(self, name: str) -> float:
-        """A number of the start or a metric in its own unit."""
+        """A number of the start or a metric in its shown unit."""
         return parse_unit(self.units[name]).of({**self.metrics, **self.start}[name])
 
 
 @dataclass
 class ReturnMap:
-    """The map from numbers at a section to those at its next passage.
+    """The map from the numbers at a section to those at its next passage.
 
     Attributes:
         names: Parameters of the spec.
-        measures: For each the section whose signal it is at the next passage.
+        measures: For each, the section whose signal is its value at the next passage.
     """
 
     model: Model
@@ -77,7 +77,13 @@ class ReturnMap:
         self._simulator = Simulator(_freed(self.model, [*self.names, *stops]), self.mode)
 
     def __call__(self, start: Floats) -> Floats:
-        """The numbers at the next passage, for those at this one.
+        """Simulate to the next passage.
+
+        Args:
+            start: The numbers at this passage, in SI.
+
+        Returns:
+            The numbers at the next passage, in SI.
 
         Raises:
             SimulationFailed: There is no next passage.
@@ -86,7 +92,7 @@ class ReturnMap:
         return np.array([found[f"{measure}.first"] for measure in self.measures])
 
     def metrics(self, start: Floats, passages: int = 1) -> Mapping[str, float]:
-        """All metrics of a run that ends at a passage, in SI. Errors: as of a call."""
+        """All metrics of a run that ends at a passage, in SI. Raises the errors of a call."""
         self.runs += 1
         outcome = self._simulator.run([*self.model.start, *map(float, start), float(passages)])
         said = ", ".join(f"{name} = {value:.6g}" for name, value in zip(self.names, start, strict=True))
@@ -102,7 +108,7 @@ class ReturnMap:
         return {name: parse_unit(units[name]).to_si(value) for name, value in outcome.metrics.items()}
 
     def slopes(self, start: Floats) -> Floats:
-        """The derivatives of the map, by central differences. Errors: as of a call."""
+        """The derivatives of the map, by central differences. Raises the errors of a call."""
         columns = []
         for i in range(len(start)):
             shift = np.zeros_like(start)
@@ -112,19 +118,23 @@ class ReturnMap:
 
 
 def cycle(opening: Opening, mode: Mode, listener: Listener, hear: Callable[[int, int], None]) -> Cycle:
-    """The periodic gait near the start of a spec.
+    """Find the periodic gait near the start of a spec.
 
-    A spec with such a gait has parameters `initial_NAME` and, for each, a `measure/section` of that NAME, whose signal
-    at the next passage is what the parameter was at this one.
+    The spec has parameters `initial_NAME` and, for each, a `measure/section` of that NAME. The signal of the section at
+    the next passage is what the parameter is at this one.
 
     Args:
-        opening: The spec or result, and how it is opened.
-        mode: As of a run.
-        listener: What hears notices.
-        hear: What is told how many rounds of Newton's method are done, and of how many at most.
+        opening: The spec or result.
+        mode: Native code ("rapid") or plain Python ("normal").
+        listener: Receives notices.
+        hear: Receives the number of iterations of Newton's method, and the largest number.
 
     Raises:
-        Usage, InvalidSpec, InvalidComponent, BadResult, Untrusted.
+        Usage: The spec has no such parameters.
+        InvalidSpec: The spec breaks a rule.
+        InvalidComponent: A component file breaks the contract.
+        BadResult: The folder is not a result, or the result is damaged.
+        Untrusted: The result has components that this machine does not trust.
         SimulationFailed: Newton's method finds no fixed point.
     """
     opened = opening.open()
@@ -139,7 +149,7 @@ def cycle(opening: Opening, mode: Mode, listener: Listener, hear: Callable[[int,
 
 
 def fixed_point(of: ReturnMap, start: Floats, hear: Callable[[int, int], None] = lambda done, count: None) -> Cycle:
-    """Where a return map gives what it was given, near a start, by Newton's method.
+    """Find the fixed point of a return map near a start, by Newton's method.
 
     Raises:
         SimulationFailed: It is not found.
@@ -161,7 +171,7 @@ def fixed_point(of: ReturnMap, start: Floats, hear: Callable[[int, int], None] =
 
 
 def _next(of: ReturnMap, start: Floats, step: Floats, away: Floats) -> Floats:
-    """The start after a step, which is shortened while it leads to no return or farther away."""
+    """The start after a step of Newton's method. The step is shortened while it leads to no passage or farther away."""
     error = SimulationFailed("")
     for shorter in (1.0, 0.5, 0.25, 0.125, 0.0625):
         try:
@@ -186,10 +196,10 @@ def _cycle(of: ReturnMap, start: Floats, slopes: Floats, distance: float) -> Cyc
 
 
 def _pairs(model: Model, path: str) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Parameters `initial_NAME` of the spec, and the sections of that NAME.
+    """The parameters `initial_NAME` of the spec, and the sections of that NAME.
 
     Raises:
-        Usage: The request does not fit.
+        Usage: There are none, or one lacks its section.
     """
     sections = _sections(model)
     known = {number.address for number in model.numbers}
@@ -210,10 +220,10 @@ def _sections(model: Model) -> list[str]:
 
 
 def _freed(model: Model, addresses: Sequence[str]) -> Model:
-    """The model with more free numbers, last and in this order.
+    """The model with additional free numbers, which are the last ones, in this order.
 
     Raises:
-        InvalidSpec: One that is no plain number.
+        InvalidSpec: One is not a plain number.
     """
     numbers, free = [*model.numbers], [*model.free]
     at = {number.address: i for i, number in enumerate(model.numbers)}

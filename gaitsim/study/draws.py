@@ -1,4 +1,4 @@
-"""Draws around the tuned values of a spec: how many, how far, and the models that they give."""
+"""Draws around the tuned values of a spec: their number, their size, and their models."""
 
 from __future__ import annotations
 
@@ -20,10 +20,13 @@ _WITHIN, _SEED = "1 %", 1
 def draws_asked(
     count: int | None, within: str | None, seed: int | None, vary: Sequence[str], out: Path | None
 ) -> Draws | None:
-    """What --draws, --within and --seed ask for; None if nothing.
+    """Read --draws, --within and --seed.
+
+    Returns:
+        The draws; None if none are asked for.
 
     Raises:
-        Usage: Also for what goes not with them.
+        Usage: A value is wrong, or does not go with --vary or --out.
     """
     if count is None:
         for option, value in (("--within", within), ("--seed", seed)):
@@ -44,11 +47,19 @@ def draws_asked(
 
 
 def drawn_models(models: Sequence[Model], draws: Draws, spec: Path) -> tuple[list[Model], list[str]]:
-    """The one model at each draw, and what is to be said of it: which values no draw changes.
+    """The models of all draws.
+
+    Args:
+        models: The model around which is drawn; a list with one model.
+        draws: The draws.
+        spec: The path of the spec, for messages.
+
+    Returns:
+        The models, and notices about values that no draw changes.
 
     Raises:
-        Usage: A study gave more models than one.
-        InvalidSpec: Nothing is tuned.
+        Usage: There are several models, because the spec is a study.
+        InvalidSpec: The spec tunes nothing.
     """
     from gaitsim.results.tuned import problem_of
 
@@ -66,10 +77,10 @@ def drawn_models(models: Sequence[Model], draws: Draws, spec: Path) -> tuple[lis
 
 
 def _share(text: str) -> float:
-    """A share such as "1 %" or 0.01.
+    """Read a share such as "1 %" or 0.01.
 
     Raises:
-        Usage: The request does not fit.
+        Usage: It is not a share.
     """
     try:
         quantity = parse_quantity(text)

@@ -1,4 +1,4 @@
-"""Files of other programs that are given where a spec belongs: what they are, and what to do."""
+"""Files of other programs given instead of a spec: what they are, and what to do."""
 
 from __future__ import annotations
 
@@ -29,8 +29,10 @@ _FORMATS = {
 
 
 def refuse_foreign(path: Path) -> None:
-    """Raises:
-    InvalidSpec: A file whose name ends as those of another format do.
+    """Refuse a file of another program where a spec is needed.
+
+    Raises:
+        InvalidSpec: The name of the file ends like those of a known other format.
     """
     known = _FORMATS.get(path.suffix.lower())
     if known is not None and path.is_file():

@@ -1,4 +1,4 @@
-"""What is kept of runs; what stands in the way of that is told after the runs themselves."""
+"""Saving of runs. What prevents it is reported after the runs."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 class Keeping:
-    """Keeps runs in a result folder below `root`, or nowhere if there is none."""
+    """Saves runs in a result folder in `root`, or nowhere without `root`."""
 
     def __init__(
         self,
@@ -36,18 +36,18 @@ class Keeping:
 
     @property
     def folder(self) -> Path | None:
-        """Where the runs are, if they are all there."""
+        """The result folder; None if a run is not saved."""
         return self._record.folder if self._record and not self.error else None
 
     def add(self, settings: Mapping[str, str], outcome: Outcome, more: Mapping[str, Any] | None = None) -> None:
-        """Keep one run, and what else there is to say of it, unless one before it could not be kept."""
+        """Save one run with further data, unless an earlier one could not be saved."""
         if self._root and not self.error:
             with self.noting():
                 self._record = self._record or self._begun(self._root)
                 self._record.add(settings, outcome, *([more] if more else []))
 
     def go_on(self, folder: Path, rows: list[dict[str, Any]]) -> None:
-        """Keep the runs that come in a folder that has some.
+        """Continue a result that has some runs.
 
         Raises:
             CannotSave: The folder cannot be written.
@@ -67,21 +67,21 @@ class Keeping:
         return Record(root, bundle, model, xml, self._mode, place, self._draws, self._more)
 
     def arrange(self, place: Callable[[Mapping[str, Any]], int]) -> None:
-        """Put the runs that were kept in the order of their places, whatever order they came in."""
+        """Sort the saved runs."""
         if self._record and not self.error:
             with self.noting():
                 self._record.arrange(place)
 
     @contextmanager
     def noting(self) -> Iterator[None]:
-        """What goes wrong in the block is told at the end; the first of it."""
+        """Catch errors of saving in the block. The first one is reported at the end."""
         try:
             yield
         except GaitsimError as error:
             self.error = self.error or error
 
     def close(self, status: str = "complete") -> None:
-        """No run comes any more."""
+        """End the result; no more runs follow."""
         if self._record:
             with self.noting():
                 self._record.close("interrupted" if self.error else status)

@@ -1,4 +1,4 @@
-"""How well a model reproduces values that are known from elsewhere: what its record says beside them."""
+"""Known values that a model should reproduce, compared with its record."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from gaitsim.units import parse_unit
 
 @dataclass(frozen=True)
 class Compared:
-    """A known value, and that of the model as recorded, both in `unit`.
+    """A known value and that of the model as recorded, both in `unit`.
 
     Attributes:
-        model: None where the record has none.
-        tolerance: A difference up to which they count as the same; None if the spec says nothing.
+        model: The model's value; None if the record has none.
+        tolerance: The largest difference that counts as equal; None if the spec gives none.
     """
 
     what: str
@@ -29,24 +29,24 @@ class Compared:
 
     @property
     def difference(self) -> float | None:
-        """How much larger the model's value is."""
+        """The model's value minus the known one."""
         return None if self.model is None else self.model - self.known
 
     @property
     def share(self) -> float | None:
-        """The difference as a share of the known value; None of a known 0."""
+        """The difference relative to the known value; None if that is 0."""
         return None if self.difference is None or not self.known else self.difference / abs(self.known)
 
     @property
     def holds(self) -> bool | None:
-        """Whether the difference is within the tolerance; None if there is no such."""
+        """Whether the difference is within the tolerance; None without a tolerance."""
         if self.difference is None or self.tolerance is None:
             return None
         return abs(self.difference) <= self.tolerance
 
 
 def compared(rows: Iterable[KnownValue], recorded: Mapping[str, Value]) -> tuple[Compared, ...]:
-    """Each known value beside what was recorded of its metric."""
+    """Compare each known value with the recorded metric."""
     return tuple(_compared(row, recorded.get(row.metric)) for row in rows)
 
 
@@ -58,7 +58,7 @@ def _compared(row: KnownValue, found: Value | None) -> Compared:
 
 
 def summary(rows: Iterable[Compared]) -> str:
-    """How well, in a few words: how many values hold, and the greatest difference; empty without rows."""
+    """A short summary: how many values hold, and the largest difference; empty without rows."""
     found = list(rows)
     judged = [row.holds for row in found if row.holds is not None]
     shares = [abs(row.share) for row in found if row.share is not None]

@@ -1,4 +1,4 @@
-"""How far numbers of a spec can go until runs end: many at once, each in its own runs."""
+"""Limits: the values of a spec's numbers at which runs begin to fail. Several numbers are searched at once."""
 
 from __future__ import annotations
 
@@ -34,10 +34,10 @@ _FINEST = 1e-6
 
 @dataclass(frozen=True)
 class Until:
-    """What ends the range of a number: that runs do not complete, or that a metric comes to a value.
+    """What ends a range: runs that do not complete, or a metric that reaches a value.
 
     Attributes:
-        value: In the metric's unit.
+        value: In the unit of the metric.
     """
 
     metric: str = ""
@@ -45,7 +45,7 @@ class Until:
     unit: str = "1"
 
     def holds(self, outcome: Outcome, at_first: Outcome) -> bool:
-        """Whether a run is still as it was at the first end; a failed run never is."""
+        """Whether a run still succeeds, given the run at the first end of the range. A failed run never does."""
         if outcome.status == "failed" or not self.metric:
             return outcome.status == "completed"
         side = self._distance(at_first)
@@ -66,10 +66,10 @@ class Until:
 
 
 def until_of(text: str | None, model: Model) -> Until:
-    """What `--until METRIC=VALUE` asks for.
+    """Read `--until METRIC=VALUE`.
 
     Raises:
-        Usage: The request does not fit.
+        Usage: It is not of this form, or there is no such metric.
     """
     if text is None:
         if not any(part.measure and "stop" in part.type.outputs for part in model.parts):
@@ -89,11 +89,11 @@ def until_of(text: str | None, model: Model) -> Until:
 
 @dataclass(frozen=True)
 class Scan:
-    """How a range is looked through.
+    """The settings of the search in a range.
 
     Attributes:
-        points: Values of the first scan, both ends among them.
-        tolerance: How exactly, in parts of the range.
+        points: The number of values in the scan, both ends included.
+        tolerance: The precision, as a share of the range.
     """
 
     points: int = 9
@@ -114,7 +114,7 @@ class Scan:
 
 @dataclass
 class Limit:
-    """One number and its range, with what is known of it."""
+    """One number, its range, and what is known of it."""
 
     address: str
     span: Span
@@ -122,27 +122,27 @@ class Limit:
     outcomes: dict[float, Outcome] = field(default_factory=dict)
 
     def at(self, share: float) -> str:
-        """The value at a share of the range, as a spec has it."""
+        """The value at a share of the range, as text for a spec."""
         return self.span.at(share)
 
     @property
     def last(self) -> str:
-        """The last value that holds."""
+        """The last value that succeeds."""
         return self.at(self.bracket.last)
 
     @property
     def first(self) -> str | None:
-        """The first value that does not hold; None if all do."""
+        """The first value that fails; None if all succeed."""
         return None if self.bracket.first is None else self.at(self.bracket.first)
 
     @property
     def beyond(self) -> list[str]:
-        """Values that hold although one before them does not."""
+        """The values that succeed although an earlier one fails."""
         return [self.at(share) for share in self.bracket.beyond]
 
     @property
     def ending(self) -> Outcome | None:
-        """The run at the first value that does not hold."""
+        """The run at the first value that fails."""
         return None if self.bracket.first is None else self.outcomes[self.bracket.first]
 
 
@@ -151,13 +151,13 @@ Row = tuple[dict[str, str], Outcome]
 
 @dataclass
 class Hunt:
-    """Limits of several numbers of one document, each varied alone.
+    """The limits of several numbers of one spec. Each number is varied alone.
 
     Attributes:
-        settings: Of the document, as a row of a study says them.
-        rows: Of every run, in order.
-        keeping: What is kept of them, run by run.
-        before: Runs that an earlier hunt, which did not come to its end, has made.
+        settings: The settings of the spec, as those of a row of a study.
+        rows: The rows of all runs, in order.
+        keeping: Saves the runs.
+        before: The runs of an earlier, interrupted search.
     """
 
     opened: Opened
@@ -176,15 +176,15 @@ class Hunt:
         return f"<Hunt: {found}; {len(self.rows)} runs; {self.folder or 'not kept'}>"
 
     def run(self, listener: Listener) -> None:
-        """Find all limits, and keep each run as it ends.
+        """Find all limits, and save each run when it ends.
 
-        What cannot be kept is `keeping.error`.
+        An error of saving is in `keeping.error`.
 
         Raises:
-            SimulationFailed: A range does not hold at its first end.
-            InvalidSpec: The spec breaks a rule.
+            SimulationFailed: A range fails at its first end.
+            InvalidSpec: A value in a range is invalid.
             InvalidComponent: A component file breaks the contract.
-            KeyboardInterrupt: With the runs before it kept.
+            KeyboardInterrupt: The runs before are saved.
         """
         hear, most = listener.progress("runs"), sum(limit.bracket.most for limit in self.limits)
         try:
@@ -205,11 +205,11 @@ class Hunt:
 
     @property
     def folder(self) -> Path | None:
-        """The result folder; None if the runs were not kept."""
+        """The result folder; None if the runs were not saved."""
         return self.keeping.folder
 
     def _outcomes(self, asked: Sequence[tuple[Limit, float]], listener: Listener) -> Iterator[Outcome]:
-        """The outcomes of what is asked, in its order: what was found before, and the rest run and kept."""
+        """The outcomes that are asked for, in order. Those that are known are not run again."""
         settings = [{**self.settings, limit.address: limit.at(share)} for limit, share in asked]
         known = [self._known(each) for each in settings]
         missing = [pair for pair, found in zip(asked, known, strict=True) if found is None]
@@ -235,7 +235,7 @@ class Hunt:
         """Refuse ranges whose first value already fails.
 
         Raises:
-            SimulationFailed: That names every range without a first value that holds.
+            SimulationFailed: There are some; the error names all of them.
         """
         faults = []
         for limit in self.limits:
@@ -257,13 +257,17 @@ def hunted(
     root: Path | None,
     listener: Listener,
 ) -> Hunt:
-    """The limits that are to be found of what is opened; nothing is run yet.
+    """Prepare a search for limits. Nothing is run yet.
 
     Args:
-        vary: What goes how far, each as ADDRESS=FROM:TO.
-        until: METRIC=VALUE that ends it, or None for a run that does not complete.
-        origin: As of `started_from`.
-        root: Where the result folder goes; None keeps nothing.
+        opening: The spec or result.
+        vary: The ranges, each as ADDRESS=FROM:TO.
+        until: METRIC=VALUE that ends a range; None for a run that does not complete.
+        scan: The settings of the search.
+        origin: The start, as for `started_from`.
+        mode: Native code ("rapid") or plain Python ("normal").
+        root: The folder of results; None saves nothing.
+        listener: Receives notices.
 
     Raises:
         Usage: The request does not fit.
@@ -286,7 +290,7 @@ def hunted(
 
 
 def resumed(opening: Opening, listener: Listener) -> Hunt:
-    """The limits that a result began to look for; what it has of them is not run again.
+    """Open the limits of a result to continue them. Its runs are not repeated.
 
     Raises:
         Usage: The request does not fit.
@@ -319,7 +323,7 @@ def resumed(opening: Opening, listener: Listener) -> Hunt:
 
 
 def _recorded(folder: Path, manifest: Mapping[str, Any]) -> tuple[dict[str, Any], list[Limit]]:
-    """What a result says of the limits that it looks for.
+    """The request and the limits in a result.
 
     Raises:
         BadResult: The folder is not a result, or the result is damaged.
@@ -338,7 +342,7 @@ def _recorded(folder: Path, manifest: Mapping[str, Any]) -> tuple[dict[str, Any]
 
 
 class _Asked(BaseModel):
-    """What was asked of a hunt, as its manifest says."""
+    """The request as the manifest has it."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
 
@@ -357,7 +361,7 @@ def _hunt(
     root: Path | None,
     listener: Listener,
 ) -> Hunt:
-    """The hunt for limits of what was opened; what is unusual is said."""
+    """Make the search; unusual starts are reported."""
     row = only_row(opened, opening.path)
     model = opened.model(row.document)
     for notice in dict.fromkeys([*opened.notices, *model.notices]):

@@ -1,4 +1,4 @@
-"""The versions of a component: as git knows them, as it stands now, and as results hold it."""
+"""The versions of a component: in git, at present, and in results."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ _UNCOMMITTED = "as it stands now"
 
 @dataclass(frozen=True)
 class Version:
-    """One version of a component: the first letters of its digest, since when, from where, and who uses it.
+    """One version of a component: the first letters of its digest, its date and origin, and its users.
 
     Attributes:
-        origin: A commit with its author and subject, a result, or that it stands so now.
+        origin: A commit with author and subject, a result, or the present file.
     """
 
     digest: str
@@ -49,13 +49,13 @@ class _Commit:
 def history(
     reference: str, library: Library, results: Iterable[UsingResult], specs: Iterable[UsingSpec]
 ) -> list[Version]:
-    """Every version of a component or a table that is known, oldest first.
+    """All known versions of a component or a table, oldest first.
 
     Args:
         reference: The component, such as muscle/geyer2003.
-        library: Where it stands now.
-        results: Those that hold copies of it.
-        specs: Those that use it as it stands now.
+        library: The library with the present version.
+        results: Results with copies of it.
+        specs: Specs that use the present version.
 
     Raises:
         Usage: Neither the library nor a result has such a component.
@@ -85,9 +85,9 @@ def history(
 
 
 def _commits(path: Path, library: Library) -> Iterator[_Commit]:
-    """The commits that changed a component, or a file that it shares, the oldest first; none outside of git.
+    """The commits that changed a component or its shared files, oldest first; none outside of git.
 
-    Each has the path that the component itself had then.
+    Each has the path that the component had then.
     """
     text = path.read_text(encoding="utf-8")
     shared = library.shared(path.parent.name, text) if path.suffix == ".py" else []
@@ -108,9 +108,9 @@ def _log(path: Path, *options: str) -> list[_Commit]:
 
 
 def _at(commit: _Commit, folder: Path, library: Library) -> str:
-    """The version that a component had at a commit; empty if it was not there.
+    """The version of a component at a commit; empty if it did not exist.
 
-    A file that it shares with its kind is taken as it stands now if it lies in another library.
+    A shared file in another library is taken as it is now.
     """
     text = _git(folder, "cat-file", "blob", f"{commit.hash}:{commit.path}")
     if not text:
@@ -125,7 +125,7 @@ def _at(commit: _Commit, folder: Path, library: Library) -> str:
 
 
 def _git(folder: Path, *words: str) -> str:
-    """What git says; nothing outside of a checkout, or without git."""
+    """The output of git; empty outside of a checkout, or without git."""
     # A checkout may name a program that watches its files, which this would start.
     command = ["git", "-c", "core.fsmonitor=false", "-c", "core.quotePath=false", *words]
     try:

@@ -1,4 +1,4 @@
-"""What hears of a study while it goes on: the command line, or the log of a notebook."""
+"""Listeners, which receive messages while a study runs: the command line, or the log of a notebook."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ if TYPE_CHECKING:
 
 
 class Listener(Protocol):
-    """Hears notices, errors that end nothing, and how far something has come."""
+    """Receives notices, errors that stop nothing, and progress."""
 
     def say(self, text: str) -> None:
-        """A notice, or a warning."""
+        """Receive a notice or a warning."""
 
     def say_error(self, error: GaitsimError) -> None:
-        """What could not be made or kept; the rest goes on."""
+        """Receive an error of something that was left out."""
 
     def progress(self, what: str) -> Callable[[int, int], None]:
-        """What is told of steps of `what` that are done, and of how many."""
+        """A function that receives how many steps of `what` are done, and of how many."""
 
     def waiting(self, what: str) -> AbstractContextManager[None]:
-        """A block that takes its time and tells nothing of itself."""
+        """A block that takes long and reports no progress."""
 
 
 class Logged:
-    """A listener for a notebook: warnings and errors are logged as warnings, other notices as information."""
+    """A listener for notebooks: warnings and errors are logged as warnings, other notices as information."""
 
     def say(self, text: str) -> None:
         """Log a notice, or a warning."""
@@ -40,9 +40,9 @@ class Logged:
         logging.getLogger("gaitsim").warning("gaitsim: %s", error)
 
     def progress(self, what: str) -> Callable[[int, int], None]:  # noqa: ARG002 (as of a listener)
-        """Progress is not logged."""
+        """A function that ignores progress."""
         return lambda done, count: None
 
     def waiting(self, what: str) -> AbstractContextManager[None]:  # noqa: ARG002
-        """Waiting is not logged."""
+        """A block without messages."""
         return nullcontext()

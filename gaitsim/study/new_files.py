@@ -1,4 +1,4 @@
-"""New files for a researcher: all of them or none, and never over one that is there."""
+"""New files of a user: all are written, or none, and none replaces an existing one."""
 
 from __future__ import annotations
 
@@ -7,10 +7,14 @@ from pathlib import Path
 
 
 def write_new(files: Mapping[Path, str], move: str) -> None:
-    """Write texts to files that do not exist yet, with their folders; `move` is what helps where that fails.
+    """Write texts to new files, with their folders.
+
+    Args:
+        files: Texts by path.
+        move: What the message suggests if this fails.
 
     Raises:
-        CannotSave: With nothing left behind.
+        CannotSave: A file exists or cannot be written. Nothing is left behind.
     """
     from gaitsim.results.store import CannotSave
 

@@ -1,7 +1,7 @@
-"""What a notebook calls: each function does what the command of its name does, and returns what that prints.
+"""The functions for notebooks. Each does what the command of its name does, and returns what the command prints.
 
-Keywords bear the names of options, and errors speak of these. Warnings are logged, and a mistake raises
-`gaitsim.errors.GaitsimError`. A run that fails is no error: its outcome says so.
+Keywords have the names of options, and errors refer to these. Warnings are logged. Mistakes raise
+`gaitsim.errors.GaitsimError`. A run that fails is not an error; its outcome has the reason.
 """
 
 from __future__ import annotations
@@ -41,16 +41,16 @@ def opening(
     candidate: str | None = None,
     results: File | None = None,
 ) -> Opening:
-    """A spec or a result, and how it is opened.
+    """A spec or a result to open.
 
     Args:
         path: A spec, or a result folder.
         set: Values by address: `{"feedback.gain": 3, "simulate.duration": "2 s"}`.
-        library: More folders of components.
-        start: Ignore tuned values beside the spec.
-        trust: Run components of a result that this machine does not know.
-        candidate: Of a result: best, a rank, GENERATION:INDEX, or the number of a run.
-        results: The folder in which a result's name is looked up; None for the usual one.
+        library: Folders of more components.
+        start: Whether to ignore tuned values beside the spec.
+        trust: Whether to run components of a result that this machine does not know.
+        candidate: The candidate of a result: best, a rank, GENERATION:INDEX, or the number of a run.
+        results: The folder in which names of results are looked up; None for the usual one.
     """
     from gaitsim.results.manifest import result_named
 
@@ -78,31 +78,29 @@ def run(
     trust: bool = False,
     library: Sequence[File] = (),
 ) -> Runs:
-    """Simulate a spec, or a candidate of a result: once, for each row of a study, or for each draw.
+    """Simulate a spec or a candidate of a result: once, for each row of a study, or for each draw.
 
     Args:
         path: A spec, or a result folder.
         set: Values by address: `{"feedback.gain": 3, "simulate.duration": "2 s"}`.
         vary: Values to run, by address: a list, or a range such as "1:15:8".
-        draws: So many runs, each with every tuned value a little different, by chance.
-        within: Of draws: how different at most, such as "1 %".
-        seed: Of draws: the same seed draws the same.
-        mode: rapid (native code), or normal (plain Python).
+        draws: The number of runs with randomly changed tuned values.
+        within: The largest relative change of the draws, such as "1 %".
+        seed: The seed of the draws.
+        mode: "rapid" (native code) or "normal" (plain Python).
         out: A CSV file for every signal of a single run, in SI.
-        every: Of `out`: one instant each "10 ms"; None for all.
-        save: Whether a result folder is kept.
-        results: Where result folders go, and names are looked up; None for $GAITSIM_RESULTS, or else results.
-        candidate: Of a result: best, a rank, GENERATION:INDEX, or the number of a run.
-        start: Ignore tuned values beside the spec.
-        trust: Run components of a result that this machine does not know.
-        library: More folders of components.
+        every: The time between two instants in `out`, such as "10 ms"; None for every step.
+        save: Whether to save a result folder.
+        results: The folder of results, in which names are looked up too; None for $GAITSIM_RESULTS, or else results.
+        candidate: The candidate of a result: best, a rank, GENERATION:INDEX, or the number of a run.
+        start: Whether to ignore tuned values beside the spec.
+        trust: Whether to run components of a result that this machine does not know.
+        library: Folders of more components.
 
     Returns:
-        The runs: `outcomes` with status, metrics (in declared units) and score, `table()`, `folder`, `notices`.
-        What could not be kept is in `unsaved`. Warnings are logged.
-
-    Raises:
-        GaitsimError: The spec, a component, a result or an argument is wrong.
+        The runs: `outcomes` with status, metrics (in declared units) and score, `table()`, `folder`, `notices`. If
+            something could not be
+        saved, the reason is in `unsaved`. Warnings are logged.
     """
     from gaitsim.study.draws import draws_asked
     from gaitsim.study.runs import Places, prepared
@@ -135,30 +133,28 @@ def limit(
     trust: bool = False,
     library: Sequence[File] = (),
 ) -> Hunt:
-    """Find how far numbers can go before a run ends, each alone.
+    """Find how far numbers can be varied before a run fails, each number alone.
 
     Args:
         path: A spec, or a result folder.
-        vary: Ranges by address, from where all is well: `{"push.strength": "0 N:1000 N"}`.
+        vary: Ranges by address; the first end must succeed: `{"push.strength": "0 N:1000 N"}`.
         set: Values by address.
-        until: METRIC=VALUE that ends it; None for a run that does not complete.
-        tolerance: How exactly, in parts of the range.
-        points: Values of the first scan, both ends included.
-        mode: rapid or normal.
-        save: Whether a result folder is kept.
-        results: Where result folders go, and names are looked up; None for $GAITSIM_RESULTS, or else results.
-        origin: As `--from`: a result whose best values are the start.
-        candidate: Of a result.
-        start: Ignore tuned values beside the spec.
-        trust: Run components of a result that this machine does not know.
-        library: More folders of components.
+        until: METRIC=VALUE that ends a range; None for a run that does not complete.
+        tolerance: The precision, as a share of the range.
+        points: The number of values in the scan, both ends included.
+        mode: "rapid" or "normal".
+        save: Whether to save a result folder.
+        results: The folder of results, in which names are looked up too; None for $GAITSIM_RESULTS, or else results.
+        origin: A result whose best values are the start, as for `--from`.
+        candidate: The candidate of a result.
+        start: Whether to ignore tuned values beside the spec.
+        trust: Whether to run components of a result that this machine does not know.
+        library: Folders of more components.
 
     Returns:
-        What was found: `limits`, each with `address`, `last` (holds), `first` (does not; None if all do) and `beyond`;
-        `rows` of every run.
-
-    Raises:
-        GaitsimError: An argument or the spec is wrong, a range does not hold at its first end, or nothing can be kept.
+        The limits: `limits`, each with `address`, `last` (succeeds), `first` (fails; None if all succeed) and `beyond`;
+            `rows` has
+        every run.
     """
     from gaitsim.study.limits import Scan, hunted
 
@@ -183,23 +179,20 @@ def cycle(
     trust: bool = False,
     library: Sequence[File] = (),
 ) -> Cycle:
-    """Find the periodic gait of a model near its start, and the eigenvalues of its return map there.
+    """Find the periodic gait of a model near its start, and the eigenvalues of its return map.
 
     Args:
         path: A spec, or a result folder.
         set: Values by address.
-        mode: rapid or normal.
-        results: Where names of results are looked up; None for $GAITSIM_RESULTS, or else results.
-        candidate: Of a result.
-        start: Ignore tuned values beside the spec.
-        trust: Run components of a result that this machine does not know.
-        library: More folders of components.
+        mode: "rapid" or "normal".
+        results: The folder in which names of results are looked up; None for $GAITSIM_RESULTS, or else results.
+        candidate: The candidate of a result.
+        start: Whether to ignore tuned values beside the spec.
+        trust: Whether to run components of a result that this machine does not know.
+        library: Folders of more components.
 
     Returns:
         The gait: `start`, `period`, `metrics`, `eigenvalues`, `slopes` and `stable`.
-
-    Raises:
-        GaitsimError: The spec has no section to return to, or no periodic gait is found.
     """
     from gaitsim.study.cycles import cycle as found
 
@@ -209,7 +202,9 @@ def cycle(
 
 @dataclass(frozen=True)
 class Search:
-    """A search that ended: its folder and model (`tuning`), where it stands (`progress`), and what was adopted."""
+    """A search that ended: its folder and model (`tuning`), its state (`progress`), and the outcome of adopting its
+    values.
+    """
 
     tuning: Tuning
     progress: Progress
@@ -228,12 +223,12 @@ class Search:
 
     @property
     def score(self) -> float | None:
-        """The best candidate's cost."""
+        """The cost of the best candidate."""
         return self.progress.best.verdict.score if self.progress.best else None
 
     @property
     def values(self) -> dict[str, float]:
-        """The best candidate's tuned values by address, in the units of `gaitsim.load(folder).parameters()`."""
+        """The tuned values of the best candidate by address, in the units of `gaitsim.load(folder).parameters()`."""
         best = self.progress.best
         pairs = zip(self.tuning.problem.variables, best.candidate.x, strict=True) if best else ()
         return {variable.address: variable.unit.of(x) for variable, x in pairs}
@@ -260,33 +255,30 @@ def optimize(
     trust: bool = False,
     library: Sequence[File] = (),
 ) -> Search:
-    """Tune a spec. Every evaluation is kept; an interrupted search goes on with `resume=True`.
+    """Tune a spec. Every evaluation is stored; `resume=True` continues an interrupted search.
 
     Args:
         path: A spec; with `resume` also a result folder.
         set: Values by address.
-        algorithm: Of the search; None leaves this, as the next three, to the spec.
-        population: Candidates a generation.
-        generations: At most.
-        seed: The same seed searches the same.
-        workers: Processes of this machine; 0 for this one, None for all cores.
-        scheduler: A Dask scheduler to use instead, such as "tcp://127.0.0.1:8786".
-        scheduler_file: A file that it wrote.
-        mode: rapid or normal.
-        smoke: Two generations of four.
-        resume: Continue the newest search of this spec.
-        origin: As `--from`: tuned, middle, or a result to start at.
-        adopt: Write the best values beside the spec.
-        force: With `adopt`: also over values that score better.
-        results: Where result folders go, and names are looked up; None for $GAITSIM_RESULTS, or else results.
-        trust: Run components of a result that this machine does not know.
-        library: More folders of components.
+        algorithm: The search algorithm; None uses that of the spec, also for the next three.
+        population: The number of candidates per generation.
+        generations: The largest number of generations.
+        seed: The seed of the search.
+        workers: The number of processes; 0 uses this process, None all cores.
+        scheduler: The address of a Dask scheduler to use instead, such as "tcp://127.0.0.1:8786".
+        scheduler_file: A file written by the scheduler.
+        mode: "rapid" or "normal".
+        smoke: Whether to try two generations of four candidates only.
+        resume: Whether to continue the newest search of this spec.
+        origin: The start: tuned, middle, or a result, as for `--from`.
+        adopt: Whether to write the best values beside the spec.
+        force: With `adopt`: whether to replace even values that score better.
+        results: The folder of results, in which names are looked up too; None for $GAITSIM_RESULTS, or else results.
+        trust: Whether to run components of a result that this machine does not know.
+        library: Folders of more components.
 
     Returns:
         The search: `folder`, `score`, `values`, `progress`.
-
-    Raises:
-        GaitsimError: The spec or an argument is wrong, every candidate failed, or a cluster cannot be reached.
     """
     from gaitsim.study.adoption import adopted
     from gaitsim.study.searches import Request, begun, check_adoption, resumed
@@ -315,24 +307,20 @@ def analyze(
     library: Sequence[File] = (),
     **wanted: Any,
 ) -> Analysis:
-    """Run results or specs once more with every signal, and draw, film and write what is wanted of them.
+    """Run results or specs once more with every signal, and make figures, films and files.
 
     Args:
-        paths: Result folders, or specs; several are drawn over each other.
+        paths: Result folders or specs; several are drawn over one another.
         set: Values by address.
-        candidate: Of each result: one, or several.
-        start: Ignore tuned values beside a spec.
-        trust: Run components of a result that this machine does not know.
-        library: More folders of components.
-        wanted: What is made, as `gaitsim.study.analyses.Wanted` has it: `plot=("*.force",)`, `export=("sto",)`,
-            `only=True` for nothing else, `folder`.
+        candidate: One or several candidates of each result.
+        start: Whether to ignore tuned values beside a spec.
+        trust: Whether to run components of a result that this machine does not know.
+        library: Folders of more components.
+        wanted: Fields of `gaitsim.study.analyses.Wanted`: `plot=("*.force",)`, `export=("sto",)`, `only=True` for
+            nothing else, `folder`.
 
     Returns:
-        `replays` with every signal, and `products` with the files made; what could not be is in `products.faults`.
-
-    Raises:
-        GaitsimError: Nothing can be looked at, or nothing can be written.
-        TypeError: A word of `wanted` is not known.
+        `replays` with every signal, and `products` with the files; what could not be made is in `products.faults`.
     """
     from gaitsim.study.analyses import Wanted, analyzed
 
@@ -355,15 +343,12 @@ def check(
     Args:
         path: A spec, or a result folder.
         set: Values by address.
-        convergence: Also run it at its step, a half and a quarter.
-        trust: Run components of a result that this machine does not know.
-        library: More folders of components.
+        convergence: Whether to run it at its step, a half and a quarter too.
+        trust: Whether to run components of a result that this machine does not know.
+        library: Folders of more components.
 
     Returns:
-        What was found of a valid spec: `models`, `doubts`, `arms`, `convergence`.
-
-    Raises:
-        GaitsimError: With every fault, if it is not valid.
+        What was found in a valid spec: `models`, `doubts`, `arms`, `convergence`.
     """
     from gaitsim.study.soundness import checked
 
@@ -374,19 +359,19 @@ _MANY = ("plot", "return_map", "export", "scopes", "formats")
 
 
 def _root(results: File | None) -> Path:
-    """Where result folders go."""
+    """The folder of results."""
     return results_folder(None if results is None else Path(results))
 
 
 def _text(value: Any) -> str:
-    """A value as a spec writes it."""
+    """A value as text for a spec."""
     if isinstance(value, str):
         return value
     return json.dumps(value, default=float, ensure_ascii=False)
 
 
 def ranges(vary: Mapping[str, str | Sequence[Any]] | None) -> list[str]:
-    """What is varied, each as ADDRESS=VALUES."""
+    """Values by address, each as ADDRESS=VALUES."""
     return [f"{address}={_values(values)}" for address, values in (vary or {}).items()]
 
 

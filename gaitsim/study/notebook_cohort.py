@@ -1,4 +1,4 @@
-"""`gaitsim.cohort`: one spec over many bodies and many devices, for a notebook."""
+"""`gaitsim.cohort`: one spec with many bodies and many devices, for notebooks."""
 
 from __future__ import annotations
 
@@ -39,28 +39,25 @@ def cohort(
 
     Args:
         path: A spec; with `resume` the result folder of a cohort.
-        bodies: A CSV file with a row for each body; none with `resume`.
+        bodies: A CSV file with a row for each body; not used with `resume`.
         set: Values by address, for all rows.
         vary: Values for every body, by address: a list, or a range such as "0 N m/rad:240 N m/rad:5".
-        retune: Evaluations that a row may take to be tuned again if it does not complete.
-        metrics: What is drawn.
-        seed: Of each search; None for the spec's.
-        workers: Processes of this machine; 0 for this one, None for all cores.
-        scheduler: A Dask scheduler to use instead, such as "tcp://127.0.0.1:8786".
-        scheduler_file: A file that it wrote.
-        mode: rapid or normal.
-        resume: Continue what a result began.
-        save: Whether a result folder is kept.
-        results: Where result folders go, and names are looked up; None for $GAITSIM_RESULTS, or else results.
-        start: Ignore tuned values beside the spec.
-        trust: Run components of a result that this machine does not know.
-        library: More folders of components.
+        retune: The number of evaluations to tune a row that does not complete.
+        metrics: The metrics to draw.
+        seed: The seed of each search; None for that of the spec.
+        workers: The number of processes; 0 uses this process, None all cores.
+        scheduler: The address of a Dask scheduler to use instead, such as "tcp://127.0.0.1:8786".
+        scheduler_file: A file written by the scheduler.
+        mode: "rapid" or "normal".
+        resume: Whether to continue a result.
+        save: Whether to save a result folder.
+        results: The folder of results, in which names are looked up too; None for $GAITSIM_RESULTS, or else results.
+        start: Whether to ignore tuned values beside the spec.
+        trust: Whether to run components of a result that this machine does not know.
+        library: Folders of more components.
 
     Returns:
         The rows: `table()` (also `table.csv` in `folder`), `counts` of how they ended, `found` by row.
-
-    Raises:
-        GaitsimError: The spec, the table or an argument is wrong, nothing can be kept, or a cluster cannot be reached.
     """
     from gaitsim.errors import Usage
     from gaitsim.study.cohorts import Asked, cohort_runs, resumed_cohort

@@ -1,4 +1,4 @@
-"""What a model is made of, with its starts: a document, its components, and where they come from."""
+"""Opened specs and results: a document, its components, and the start of its tuned numbers."""
 
 from __future__ import annotations
 
@@ -23,11 +23,19 @@ from gaitsim.text.document import MappingNode
 
 @dataclass(frozen=True)
 class Opened:
-    """A document, the components it may use, and where its tuned numbers start.
+    """A spec or a result that was opened.
 
-    origin: where the starts come from, in words. place: the folder of the spec; of a result, the current folder.
-    manifest, recorded: of a result, and what it says of the run that this is (as `row_data`). more: further files of
-    its bundle.
+    Attributes:
+        document: The spec.
+        library: The components that it may use.
+        name: The name of the model.
+        starts: The starts of tuned numbers, in SI by address.
+        notices: Notices for the user.
+        manifest: The manifest of a result; empty for a spec.
+        recorded: What a result recorded of this run, as `row_data`; empty for a spec.
+        origin: The file or the result that the starts come from.
+        place: The folder of the spec; the current folder for a result.
+        more: Further files of the bundle.
     """
 
     document: MappingNode
@@ -45,11 +53,11 @@ class Opened:
     )  # by the id of the document
 
     def model(self, document: MappingNode | None = None) -> Model:
-        """The model of the document, which is resolved once, or of a variant of it."""
+        """The model of the document, which is resolved once, or of a variant of the document."""
         return self._written(document or self.document).started_at(self.starts, self.origin)
 
     def _written(self, document: MappingNode) -> Model:
-        """The model with the starts that a document says."""
+        """The model with the starts of the document."""
         if document is not self.document:
             return resolve(document, self.library, self.name)
         if id(document) not in self._resolved:
@@ -57,16 +65,19 @@ class Opened:
         return self._resolved[id(document)][1]
 
     def bundle(self, models: Iterable[Model]) -> Bundle:
-        """The source as files, given the models made of it."""
+        """The bundle of the document and its models."""
         made = bundled(self.document, self.name, self.library, self.starts, models)
         return replace(made, files=made.files | dict(self.more))
 
 
 def open_result(folder: Path, settings: Sequence[str], trusted: bool, candidate: str | None) -> Opened:
-    """A result's own spec and components, started at one of its candidates.
+    """Open a result at one of its candidates, with its own spec and components.
 
     Args:
-        candidate: Of a search (best if None), or a run of a study; None leaves a study what it is.
+        folder: The result.
+        settings: Overrides, each as ADDRESS=VALUE.
+        trusted: Whether the user trusts its components.
+        candidate: A candidate of a search (the best if None), or a run of a study; None keeps the whole study.
 
     Raises:
         BadResult: The folder is not a result, or the result is damaged.
@@ -101,7 +112,7 @@ def open_result(folder: Path, settings: Sequence[str], trusted: bool, candidate:
 
 
 def _first_episode(document: MappingNode, verdict: Mapping[str, Any]) -> tuple[MappingNode, dict[str, Any], str]:
-    """The spec of a search's first episode, what it says of that one, and words that tell of the others."""
+    """The spec of a search's first episode, what was recorded of it, and a notice about the other episodes."""
     rows, found = episodes(document), verdict["episodes"]
     if not rows[0].settings:
         return document, dict(verdict), ""

@@ -1,4 +1,4 @@
-"""What is studied, a spec with its tuned values or a result with one of its candidates, and how it is opened."""
+"""What to open, a spec or a result, and with which options."""
 
 from __future__ import annotations
 
@@ -16,17 +16,17 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Opening:
-    """A spec or a result folder, and everything that says how it is opened.
+    """A spec or a result folder, and the options to open it with.
 
     Attributes:
         path: The spec, or the result folder.
         settings: Overrides of the spec, each as ADDRESS=VALUE.
-        folders: Of more components.
-        tuned: Start at the tuned values beside the spec, if there are some.
-        trusted: Run components of a result that this machine does not know.
-        candidate: Of a result, which one: best, a rank or GENERATION:INDEX of a search, best or the number of a run of
-            a study.
-        results: The folder in which the name of another result is looked up, if not the usual one.
+        folders: Folders of more components.
+        tuned: Whether to start at the tuned values beside the spec, if there are any.
+        trusted: Whether to run components of a result that this machine does not know.
+        candidate: The candidate of a result: best, a rank or GENERATION:INDEX of a search; best or the number of a run
+            of a study.
+        results: The folder in which names of other results are looked up, if not the usual one.
     """
 
     path: Path
@@ -39,16 +39,19 @@ class Opening:
 
     @property
     def names_result(self) -> bool:
-        """Whether the path is meant as a result."""
+        """Whether the path refers to a result."""
         from gaitsim.results.manifest import is_result
 
         return is_result(self.path)
 
     def open(self) -> Opened:
-        """What the path names, with its components and starts.
+        """Open the spec or the result.
 
         Raises:
-            InvalidSpec, BadResult, Untrusted, Usage.
+            InvalidSpec: The spec breaks a rule.
+            BadResult: The folder is not a result, or the result is damaged.
+            Untrusted: The result has components that this machine does not trust.
+            Usage: The options do not fit.
         """
         from gaitsim.errors import Usage
         from gaitsim.study.opened import open_result
@@ -63,16 +66,16 @@ class Opening:
         """The components that the spec can use.
 
         Raises:
-            Usage: The request does not fit.
+            Usage: A folder is missing.
         """
         return open_library(self.path, self.folders)
 
     def document(self) -> MappingNode:
-        """The spec with its settings.
+        """The spec with the settings applied.
 
         Raises:
             InvalidSpec: The spec breaks a rule.
-            Usage: The request does not fit.
+            Usage: A setting is not of the form ADDRESS=VALUE.
         """
         from gaitsim.spec.inheritance import split_setting
         from gaitsim.spec.resolve import read_spec
@@ -85,8 +88,12 @@ class Opening:
 def open_library(spec: Path | None, folders: Sequence[Path]) -> Library:
     """The components that a spec can use.
 
+    Args:
+        spec: The spec; None for the shipped components only.
+        folders: Folders of more components.
+
     Raises:
-        Usage: A folder is missing, or if the spec is the copy that a result holds.
+        Usage: A folder is missing, or the spec is the copy in a result.
     """
     from gaitsim.components.find import Library, library_folders
     from gaitsim.errors import Usage
@@ -102,17 +109,17 @@ def open_library(spec: Path | None, folders: Sequence[Path]) -> Library:
 
 
 def _as_written(opening: Opening) -> Opened:
-    """A spec that starts where it says."""
+    """Open a spec with its own starts."""
     from gaitsim.study.opened import Opened
 
     return Opened(opening.document(), opening.library(), opening.path.stem, {}, place=opening.path.parent)
 
 
 def _tuned(opening: Opening) -> Opened:
-    """A spec, started at its tuned values if there are some.
+    """Open a spec with its tuned values, if there are any.
 
-    A variant without its own starts at those of the nearest parent that has some, if it tunes the same numbers,
-    or fewer, from the same starts within the same bounds.
+    A variant without tuned values of its own starts at those of the nearest parent that has some, if it tunes the same
+    numbers, or fewer, from the same starts within the same bounds.
     """
     from gaitsim.results.tuned import read_tuned, tuned_path
 
@@ -131,7 +138,7 @@ def _tuned(opening: Opening) -> Opened:
 
 
 def _owner(spec: Path) -> Path | None:
-    """The spec itself or its nearest parent, whichever has tuned values; None if none has."""
+    """The spec or its nearest parent with tuned values; None if there is none."""
     from gaitsim.results.tuned import tuned_path
     from gaitsim.spec.inheritance import parents
 
@@ -139,17 +146,22 @@ def _owner(spec: Path) -> Path | None:
 
 
 def _tunes_what(opened: Opened, parent: Opening) -> bool:
-    """Whether all that a source tunes is tuned alike in the spec that it extends."""
+    """Whether everything that a spec tunes is tuned in the same way in its parent."""
     alike = {(f.address, f.low, f.high, f.start) for f in _as_written(parent).model().free}
     return alike >= {(f.address, f.low, f.high, f.start) for f in opened.model().free}
 
 
 def started_from(opened: Opened, opening: Opening, origin: str | None) -> tuple[Opened, list[str]]:
-    """The source of a spec with starts from where `--from` says, and what matched.
+    """Change the starts of an opened spec as `--from` says.
 
     Args:
-        origin: Tuned (values beside the spec or its nearest parent with some), middle, or a result folder; None changes
-            nothing.
+        opened: The spec.
+        opening: How it was opened.
+        origin: tuned (values beside the spec or its nearest parent with some), middle (of the bounds), or a result
+            folder; None changes nothing.
+
+    Returns:
+        The spec with other starts, and notices.
 
     Raises:
         Usage: The request does not fit.
@@ -186,10 +198,10 @@ def started_from(opened: Opened, opening: Opening, origin: str | None) -> tuple[
 
 
 def only_row(opened: Opened, path: Path) -> Variant:
-    """The one run of a source that is no study.
+    """The one run of a spec or result that is not a study.
 
     Raises:
-        Usage: The request does not fit.
+        Usage: It is a study.
     """
     from gaitsim.errors import Usage
     from gaitsim.spec.study import variants

@@ -1,4 +1,4 @@
-"""What an analysis leaves: figures, exports, a video, a report; each made even if another cannot be."""
+"""The products of an analysis: figures, exports, a video, a report. If one cannot be made, the others still are."""
 
 from __future__ import annotations
 
@@ -24,12 +24,12 @@ T = TypeVar("T")
 
 @dataclass
 class Products:
-    """Files that were made in a folder, and what could not be made.
+    """The files that were made in a folder, and what could not be made.
 
     Attributes:
-        faults: What the user must mend.
-        lacks: What the model or this machine has not, which is no failure.
-        listener: Hears what could not be made, and how far it is.
+        faults: What the user can correct.
+        lacks: What the model or this machine lacks; this is not a failure.
+        listener: Receives what could not be made, and progress.
     """
 
     folder: Path
@@ -44,28 +44,28 @@ class Products:
 
     @property
     def exit_code(self) -> int:
-        """Of the first thing that could not be made."""
+        """The exit code of the first fault."""
         return self.faults[0].exit_code if self.faults else ExitCode.OK
 
     def refuse(self, error: GaitsimError) -> None:
-        """Say what could not be made, and go on."""
+        """Report what could not be made, and continue."""
         self.listener.say_error(error)
         self.faults.append(error)
 
     def remark(self, words: Sequence[str]) -> None:
-        """Say what is not there and is no failure."""
+        """Report something that is missing and is not a failure."""
         for word in words:
             self.listener.say(word)
             self.lacks.append(word)
 
     def refuse_if_others(self, error: GaitsimError, count: int) -> None:
-        """Note that one of several runs cannot be looked at; of the only one, the error itself tells."""
+        """Report that one of several runs cannot be analyzed. The error of an only run is raised."""
         if count > 1:
             self.listener.say_error(error)
         self.faults.append(error)
 
     def attempt(self, what: str, make: Callable[[], T]) -> T | None:
-        """Make something; what stands in its way is said, and the rest goes on."""
+        """Make something. An error is reported, and the rest continues."""
         try:
             return make()
         except GaitsimError as error:
@@ -77,7 +77,7 @@ class Products:
         return None
 
     def draw(self, makers: Sequence[Callable[[], list[Drawing]]], formats: Sequence[str]) -> None:
-        """Make figures and write them, each under a name of its own."""
+        """Make figures and write them; each gets a name of its own."""
         from gaitsim.analysis.drawings.drawing import save
 
         taken: set[str] = set()
@@ -91,7 +91,11 @@ class Products:
             hear(k, len(makers))
 
     def export(self, replays: Sequence[Replay], formats: Sequence[str], every: float | None) -> None:
-        """Write the signals of each run in each of `FORMATS` that is named; one instant in `every` seconds, or all."""
+        """Write the signals of each run in each format of `FORMATS` that is named.
+
+        Args:
+            every: The time between two instants in s; None for every step.
+        """
         for replay in replays:
             for ending in formats:
                 path = self.folder / "exports" / f"{_plain(replay.label)}.{ending}"
@@ -99,7 +103,7 @@ class Products:
                     self.exports.append(path)
 
     def film(self, replay: Replay, options: VideoOptions, ending: str) -> None:
-        """Write the video; a machine that cannot draw one says so in a line."""
+        """Write the video. If this machine cannot draw one, a line says so."""
         from gaitsim.animation import NoOpenGL
         from gaitsim.animation.video import record
 
@@ -113,7 +117,7 @@ class Products:
         self.video = self.attempt("the video", make)
 
     def write_report(self, replays: Sequence[Replay]) -> None:
-        """Write the page that has all of it."""
+        """Write the report, a page with everything."""
         from gaitsim.analysis.report.report import write
 
         path = self.folder / "report.html"
@@ -122,7 +126,7 @@ class Products:
 
 
 def default_figures(replays: Sequence[Replay]) -> list[Callable[[], list[Drawing]]]:
-    """What is drawn of any result: several runs over each other, and the figures of each."""
+    """The default figures: several runs over one another, and the figures of each run."""
     from gaitsim.analysis.report.figures import FIGURES
 
     def of_run(figures: Figures, replay: Replay) -> Callable[[], list[Drawing]]:
@@ -133,7 +137,7 @@ def default_figures(replays: Sequence[Replay]) -> list[Callable[[], list[Drawing
 
 
 def overlaid_figures(replays: Sequence[Replay]) -> list[Callable[[], list[Drawing]]]:
-    """What is drawn of several runs over one another."""
+    """The figures of several runs over one another."""
     from gaitsim.analysis.report.figures import OVERLAYS
 
     return [partial(overlay, replays) for overlay in OVERLAYS]
@@ -147,7 +151,7 @@ def _of_run(drawing: Drawing, replay: Replay, several: bool) -> Drawing:
 
 
 def _renamed(drawing: Drawing, taken: set[str]) -> Drawing:
-    """The drawing under a name that no other has."""
+    """The drawing with a name that no other drawing has."""
     name, number = drawing.name, 1
     while name.lower() in taken:
         number += 1
@@ -173,5 +177,5 @@ def _write(replay: Replay, path: Path, every: float | None) -> Path:
 
 
 def _plain(label: str) -> str:
-    """A label as part of a file's name."""
+    """A label as part of a file name."""
     return "".join(letter if letter.isalnum() or letter in "-_." else "_" for letter in label)

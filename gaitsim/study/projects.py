@@ -1,6 +1,8 @@
-"""Projects: folders below a lab, each with a model copied from a result or a spec, and all that a researcher adds.
+"""Projects: folders in a lab, each with a model that was copied from a result or a spec, and the work of one
+researcher.
 
-A project is told by a file of its own, and a lab by one that never changes: nothing is shared that two could write.
+A project is marked by a file of its own, and a lab by a file that never changes. Two people therefore never write the
+same file.
 """
 
 from __future__ import annotations
@@ -76,7 +78,7 @@ What differs from the beginning, in the model and in its gait:
 
 @dataclass(frozen=True)
 class Project:
-    """A project: its folder, name, author, day of beginning, and what it was begun from."""
+    """A project: its folder, name, author, date, and the origin of its model."""
 
     folder: Path
     name: str
@@ -86,16 +88,12 @@ class Project:
 
     @property
     def spec(self) -> Path:
-        """Its model."""
+        """The spec of its model."""
         return self.folder / f"{self.name}.yaml"
 
 
 def projects(place: Path) -> list[Project]:
-    """The projects of the lab that a folder belongs to, by name; one whose file is damaged has nothing but its folder.
-
-    Raises:
-        Usage: The folder belongs to no lab.
-    """
+    """The projects of the lab that a folder belongs to, by name. A project with a damaged file has its folder only."""
     lab = lab_of(place)
     if lab is None:
         raise Usage(f"no folder above this one has a {LAB}, so this is no lab; gaitsim new project NAME makes one.")
@@ -113,7 +111,7 @@ def _read(path: Path) -> Project:
 
 @dataclass(frozen=True)
 class Begun:
-    """A project that was made: its files, by path; and components that it has copies of, with the reason."""
+    """A new project: its files by path, and the components that were copied, with the reason."""
 
     project: Project
     files: tuple[Path, ...]
@@ -121,14 +119,14 @@ class Begun:
 
 
 def new_project(name: str, origin: str, place: Path, results: Path | None = None, trusted: bool = False) -> Begun:
-    """Make a project in the lab that a folder belongs to; without a lab, the folder becomes one.
+    """Make a project in the lab that a folder belongs to. Without a lab, the folder becomes one.
 
     Args:
-        name: Of the project and of its spec.
-        origin: A result, a spec, or the name of a shipped spec, of which the model and its tuned values are copied.
-        place: Where the command is given.
-        results: The folder in which a result's name is looked up.
-        trusted: Load components of a result that this machine does not know.
+        name: The name of the project and of its spec.
+        origin: A result, a spec, or the name of a shipped spec, whose model and tuned values are copied.
+        place: The folder in which the command is given.
+        results: The folder in which names of results are looked up.
+        trusted: Whether to load components of a result that this machine does not know.
 
     Raises:
         Usage, BadResult, Untrusted, InvalidSpec, InvalidComponent, CannotSave: Nothing is left behind then.
@@ -182,8 +180,10 @@ def _free_folder(name: str, lab: Path) -> Path:
 
 
 def _opening(origin: str, results: Path | None, trusted: bool) -> Opening:
-    """Raises:
-    Usage: For what is neither a result nor a spec.
+    """What to open as the origin of a project.
+
+    Raises:
+        Usage: It is neither a result nor a spec.
     """
     named = result_named(Path(origin), results)
     if is_result(named):
@@ -198,14 +198,14 @@ def _opening(origin: str, results: Path | None, trusted: bool) -> Opening:
 
 
 def _where(opening: Opening, opened: Opened, origin: str) -> str:
-    """What a project is begun from: the name of a result holds wherever its folder lies."""
+    """The origin of a project in words. The name of a result is enough, wherever its folder lies."""
     if opened.manifest:
         return f"{opening.path.name}"
     return origin
 
 
 def _bundle(opening: Opening, opened: Opened) -> Bundle:
-    """All that a result or a spec is made of, with every run of its study and every episode of its search."""
+    """Everything that a result or a spec is made of, with all runs of its study and all episodes of its search."""
     if opening.names_result:
         return read_result(opening.path)[1]
     runs = [opened.model(row.document) for row in variants(opened.document, [])]
@@ -213,7 +213,7 @@ def _bundle(opening: Opening, opened: Opened) -> Bundle:
 
 
 def _spec_text(opening: Opening, bundle: Bundle) -> str:
-    """The spec as it was written; with its parents merged in if it has some, and of a result as that holds it."""
+    """The spec as written. A spec with parents is merged with them; that of a result is as the result has it."""
     if not opening.names_result:
         text = opening.path.read_text(encoding="utf-8")
         if "extends" not in parse(text, str(opening.path)).entries:
@@ -222,7 +222,7 @@ def _spec_text(opening: Opening, bundle: Bundle) -> str:
 
 
 def _lacking(bundle: Bundle, libraries: list[Path]) -> dict[str, str]:
-    """The component files of a bundle that these libraries do not serve as they are, each with what is said of it."""
+    """The component files of a bundle that these libraries lack or have in another version, with the reason."""
     found = {}
     for path, text in sorted(bundle.files.items()):
         inner = path.removeprefix(f"{COMPONENTS}/")

@@ -1,4 +1,6 @@
-"""A prototype moves from a project into a library: only with docs, sources, bounds, and a test of its physics."""
+"""Promotion of a component from a project to a library. It needs documentation, sources, bounds, and a test of its
+physics.
+"""
 
 from __future__ import annotations
 
@@ -35,15 +37,15 @@ _LINES = 25  # of a test that fails
 
 @dataclass(frozen=True)
 class Request:
-    """What is to be promoted, and how.
+    """A request for a promotion.
 
     Attributes:
-        origin: The folder of kinds that it is in.
-        target: The library that it goes to.
-        test: Its file.
-        replace: Put it in the place of one that is there, if no user of that changes.
-        force: Also if some do.
-        scope: Where users are looked for.
+        origin: The folder of kinds with the component.
+        target: The library.
+        test: The file of the test.
+        replace: Whether to replace a component of the same name, if none of its users changes.
+        force: Whether to replace it even if users change.
+        scope: Where users are searched for.
     """
 
     reference: str
@@ -57,7 +59,9 @@ class Request:
 
 @dataclass(frozen=True)
 class Promoted:
-    """What was done: files of the library, files of the project that are gone, and what users of a replaced one do."""
+    """What was done: new files of the library, removed files of the project, and the results of the users of a
+    replaced component.
+    """
 
     files: tuple[Path, ...]
     removed: tuple[Path, ...]
@@ -65,7 +69,7 @@ class Promoted:
 
 
 class Changes(GaitsimError):
-    """A new version of a component changes what its users do."""
+    """The users of a component would give other results with its new version."""
 
     exit_code = SimulationFailed.exit_code
 
@@ -83,10 +87,10 @@ def asked(
     force: bool,
     scope: Scope,
 ) -> Request:
-    """The request that options make: from the project here into the library of its lab, unless they say otherwise.
+    """Make the request from options. By default the component moves from this project to the library of its lab.
 
     Raises:
-        Usage: The request does not fit.
+        Usage: There is no such component, or no library.
     """
     here = origin or project_of(Path.cwd()) or Path()
     folder = here / "components" if (here / "components").is_dir() else here
@@ -105,7 +109,8 @@ def asked(
 
 
 def promoted(request: Request, listener: Listener) -> Promoted:
-    """Check a prototype, run its test in a copy of the library, and move both there. Nothing is changed before.
+    """Check a component, run its test in a copy of the library, and move both. Nothing is changed before all checks
+    pass.
 
     Raises:
         Usage: Something is there already.
@@ -133,7 +138,7 @@ def promoted(request: Request, listener: Listener) -> Promoted:
 
 
 def _reviewed(request: Request) -> ComponentFile:
-    """The component, if a library may have it.
+    """The component, after the checks of a library.
 
     Raises:
         InvalidComponent: A component file breaks the contract.
@@ -151,16 +156,12 @@ def _reviewed(request: Request) -> ComponentFile:
 
 
 def _behind(target: Path) -> tuple[Path, ...]:
-    """The folders that serve a library: itself, and the shipped one."""
+    """The library and the shipped one."""
     return (target, *([] if target.resolve() == shipped_folder().resolve() else [shipped_folder()]))
 
 
 def _physics_test(request: Request) -> str:
-    """The text of the test, as it stands beside the library.
-
-    Raises:
-        InvalidComponent: There is none, or none of physics.
-    """
+    """The text of the test, adapted to the library."""
     path, name = request.test, request.reference
     place = Mark(shown(path))
     form = "gaitsim library new writes the beginning of one"
@@ -194,7 +195,7 @@ def _physics_test(request: Request) -> str:
 
 
 def _files(request: Request, component: ComponentFile, test: str) -> dict[Path, str]:
-    """What the library gets: the component, its test, and what of its kind and its sources is not there yet."""
+    """The files that the library gets: the component, its test, and missing files of its kind and its sources."""
     kind, target = component.kind, request.target
     files = {target / kind / component.path.name: component.path.read_text(encoding="utf-8")}
     files[target.resolve().parent / "tests" / "library" / request.test.name] = test
@@ -214,11 +215,7 @@ def _files(request: Request, component: ComponentFile, test: str) -> dict[Path, 
 
 
 def _taken(request: Request, files: Mapping[Path, str]) -> bool:
-    """Whether a component of this name is there already.
-
-    Raises:
-        Usage: It may not be replaced.
-    """
+    """Whether the library has a component of this name."""
     known = Library(_behind(request.target)).file(request.reference)
     for path, text in files.items():
         other = path.is_file() and path.name != FILE and path.read_text(encoding="utf-8") != text
@@ -232,7 +229,7 @@ def _taken(request: Request, files: Mapping[Path, str]) -> bool:
 
 
 def _stage(stage: Path, request: Request, files: Mapping[Path, str]) -> None:
-    """A copy of the library with the new files, and its tests' folder beside it."""
+    """Copy the library and its tests, and add the new files."""
     if request.target.is_dir():
         shutil.copytree(request.target, stage, ignore=shutil.ignore_patterns("__pycache__"))
     for path, text in files.items():
@@ -270,17 +267,13 @@ def _run_test(staged: Path, own: Path) -> None:
 
 
 def _users(request: Request, stage: Path, listener: Listener) -> tuple[Tested, ...]:
-    """What the new version does to the users of the one that is there."""
+    """The results of the users of the present component with the new version."""
     scope = Scope(request.scope.words, request.scope.results, (stage, *request.scope.folders))
     return tuple(tested(request.reference, scope, False, listener))
 
 
 def _write(request: Request, files: Mapping[Path, str]) -> None:
-    """Write all files, or none.
-
-    Raises:
-        CannotSave: The folder cannot be written.
-    """
+    """Write all files, or none."""
     before = {path: path.read_text(encoding="utf-8") if path.is_file() else None for path in files}
     done: list[Path] = []
     try:
@@ -297,7 +290,9 @@ def _write(request: Request, files: Mapping[Path, str]) -> None:
 
 
 def _removed(request: Request, component: ComponentFile) -> tuple[Path, ...]:
-    """The files of the project that now lie in the library; they stay where its specs do not see that."""
+    """Remove the files of the project that are now in the library. They stay if specs of the project do not use that
+    library.
+    """
     seen = {folder.resolve() for folder in library_folders(request.origin.parent / "spec.yaml")}
     if request.target.resolve() not in seen:
         return ()

@@ -1,4 +1,4 @@
-"""What a model of the archive did when it was recorded: records/NAME.yaml beside the spec, written by a command."""
+"""Records of models in the archive: records/NAME.yaml beside the spec, written by `gaitsim archive record`."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _DIGEST = re.compile(r"^digest: (\w+)\n\Z", re.MULTILINE)
 
 
 class BadRecord(GaitsimError):
-    """A record that is missing, damaged or edited."""
+    """A record is missing, damaged or edited."""
 
 
 class _Model(BaseModel):
@@ -34,10 +34,10 @@ class _Model(BaseModel):
 
 
 class Value(_Model):
-    """A number in its unit, and how far another may be from it.
+    """A recorded number in its unit, with a tolerance.
 
     Attributes:
-        value: None where there was none.
+        value: None if there was none.
         tolerance: None for a number that rounding decides, which is not compared.
     """
 
@@ -46,7 +46,7 @@ class Value(_Model):
     tolerance: float | None
 
     def holds(self, now: float | None) -> bool:
-        """Whether a number is the recorded one, as far as another machine can tell."""
+        """Whether a number agrees with the recorded one within the tolerance."""
         if self.tolerance is None:
             return True
         if self.value is None or now is None:
@@ -55,10 +55,10 @@ class Value(_Model):
 
 
 class Row(_Model):
-    """One run: what it sets, how it ended, and its numbers: steps, score and metrics.
+    """One run: its settings, how it ended, and its numbers: steps, score and metrics.
 
     Attributes:
-        status: Also several, such as "completed or stopped", where rounding decides which.
+        status: The status; several, such as "completed or stopped", if rounding decides.
     """
 
     settings: dict[str, str] = {}
@@ -67,7 +67,7 @@ class Row(_Model):
 
 
 class MadeFrom(_Model):
-    """The first letters of the digests of what a record was made from."""
+    """The first letters of the digests of everything that a record was made from."""
 
     spec: str
     tuned: str | None
@@ -85,7 +85,7 @@ class Recorded(_Model):
 
 @dataclass(frozen=True)
 class Difference:
-    """Something that is not as it was recorded."""
+    """A difference from the record."""
 
     run: str
     metric: str
@@ -96,25 +96,28 @@ class Difference:
 
     @property
     def change(self) -> float | None:
-        """The relative change; None of a text and of a recorded 0."""
+        """The relative change; None for a text and for a recorded 0."""
         if isinstance(self.recorded, float) and isinstance(self.now, float) and self.recorded:
             return self.now / self.recorded - 1
         return None
 
 
 def record_path(spec: Path) -> Path:
-    """Where the record of a spec lies."""
+    """The path of a spec's record."""
     return spec.parent / FOLDER / f"{spec.stem}.yaml"
 
 
 def record_text(recorded: Recorded) -> str:
-    """A record as text, with a digest of it at its end: the same record gives the same bytes."""
+    """A record as text that ends with its digest. The same record gives the same bytes."""
     text = dump(recorded.model_dump())
     return f"{text}digest: {digest_of(text)[:SHORT]}\n"
 
 
 def write_record(spec: Path, recorded: Recorded) -> Path:
-    """Write the record of a spec; its path.
+    """Write the record of a spec.
+
+    Returns:
+        The path of the record.
 
     Raises:
         OSError: The file cannot be read or written.
@@ -126,7 +129,7 @@ def write_record(spec: Path, recorded: Recorded) -> Path:
 
 
 def read_record(spec: Path) -> Recorded:
-    """The record of a spec.
+    """Read the record of a spec.
 
     Raises:
         BadRecord: There is none, or if it is not as the command wrote it.
@@ -149,12 +152,12 @@ def read_record(spec: Path) -> Recorded:
 
 
 def run_words(settings: Mapping[str, str]) -> str:
-    """What a run sets, in words; empty for the spec as it is."""
+    """The settings of a run in words; empty for the spec without changes."""
     return ", ".join(f"{address} = {value}" for address, value in settings.items())
 
 
 def differences(before: Sequence[Row], now: Sequence[Row]) -> Iterator[Difference]:
-    """What of runs is not as it was recorded; of `now` only values count."""
+    """The differences of runs from a record. Of `now`, the tolerances do not count."""
     settings = [[row.settings for row in rows] for rows in (before, now)]
     if settings[0] != settings[1]:
         old_runs, new_runs = ("; ".join(run_words(each) or "as it is" for each in rows) for rows in settings)
@@ -178,9 +181,9 @@ def _of_number(run: str, name: str, old: Value | None, new: Value | None) -> Ite
 
 
 def kept(before: Recorded, now: Recorded) -> Recorded:
-    """A new record, in which the numbers of the one before that still hold stay as they are.
+    """A new record. Numbers that still agree with the record before keep its values.
 
-    So a record does not creep along with many small changes, and another machine does not rewrite it.
+    A record therefore does not drift with many small changes, and another machine does not rewrite it.
     """
     known = {run_words(row.settings): row.numbers for row in before.runs}
     rows = []
@@ -194,5 +197,5 @@ def kept(before: Recorded, now: Recorded) -> Recorded:
 
 
 def finite(number: float | None) -> float | None:
-    """A number as a record has it: None where it is none."""
+    """A number for a record: None if it is not finite."""
     return None if number is None or not math.isfinite(number) else float(number)

@@ -1,4 +1,4 @@
-"""A source run once more, and what its reader should know of that."""
+"""Replays of opened specs and results, with notices about them."""
 
 from __future__ import annotations
 
@@ -14,7 +14,15 @@ from gaitsim.study.verify import differences
 
 
 def replay_of(opened: Opened, path: Path, label: str = "", duration: float | None = None) -> Replay:
-    """Run a source, and note what its reader should know: other versions, a search that has not ended.
+    """Run an opened spec or result once more with every signal.
+
+    Notices report other versions, a search that has not ended, and numbers that differ from the record.
+
+    Args:
+        opened: The spec or result.
+        path: Its path.
+        label: Its name in figures.
+        duration: In s; that of the spec by default.
 
     Raises:
         InvalidSpec: The spec breaks a rule.

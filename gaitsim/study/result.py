@@ -1,4 +1,4 @@
-"""A result in a notebook: its record, and its signals as labelled arrays."""
+"""Results in notebooks: the record, and signals as labelled arrays."""
 
 from __future__ import annotations
 
@@ -22,14 +22,18 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Result:
-    """A result folder and one of its candidates; nothing is run before something is asked for.
+    """A result folder and one of its candidates. Nothing is run before it is needed.
 
-    >>> best = gaitsim.load("results/2026-11-22-hopping-3f9c") >>> best.metrics["apex_height"] >>> best.parameters() >>>
-    signals = best.trajectory() >>> signals["extensor.force"].sel(time=slice(1, 2)).plot()
+    >>> best = gaitsim.load("results/2026-11-22-hopping-3f9c")
+    >>> best.metrics["apex_height"]
+    >>> best.parameters()
+    >>> signals = best.trajectory()
+    >>> signals["extensor.force"].sel(time=slice(1, 2)).plot()
 
     Attributes:
-        candidate: Best, a rank, or GENERATION:INDEX of a search; of a study best, or the number of a run.
-        trust: Run components that this machine does not know.
+        folder: The result folder.
+        candidate: best, a rank or GENERATION:INDEX of a search; best or the number of a run of a study.
+        trust: Whether to run components that this machine does not know.
     """
 
     folder: Path
@@ -38,7 +42,7 @@ class Result:
 
     @cached_property
     def manifest(self) -> dict[str, Any]:
-        """Status, versions, machine, commit, command, search.
+        """Status, versions, machine, commit, command, and search.
 
         Raises:
             BadResult: The folder is not a result, or the result is damaged.
@@ -47,7 +51,7 @@ class Result:
 
     @cached_property
     def opened(self) -> Opened:
-        """Spec, components and starts of the candidate.
+        """The spec, the components and the starts of the candidate.
 
         Raises:
             BadResult: The folder is not a result, or the result is damaged.
@@ -58,23 +62,25 @@ class Result:
 
     @cached_property
     def model(self) -> Model:
-        """The resolved model, started at the candidate. Errors: as `source`, InvalidSpec."""
+        """The resolved model, started at the candidate. Raises the errors of `opened`."""
         return self.opened.model()
 
     @property
     def metrics(self) -> dict[str, float]:
-        """The candidate's metrics as they were recorded, in the units of `model.metrics`; nan for none."""
+        """The recorded metrics of the candidate, in the units of `model.metrics`; nan for a missing one."""
         recorded = self.opened.recorded.get("metrics", {})
         return {name: math.nan if value is None else float(value) for name, value in recorded.items()}
 
     @property
     def score(self) -> float:
-        """The candidate's cost as it was recorded; nan for none."""
+        """The recorded cost of the candidate; nan if there is none."""
         score = self.opened.recorded.get("score")
         return math.nan if score is None else float(score)
 
     def parameters(self) -> pandas.DataFrame:
-        """The tuned numbers by address: value of the candidate, its unit, and the bounds of the search in that unit."""
+        """The tuned numbers by address: the value of the candidate, the unit, and the bounds of the search in that
+        unit.
+        """
         import pandas
 
         rows = {}
@@ -103,33 +109,39 @@ class Result:
             raise BadResult(f"{path}: this cannot be read ({error}); continue the search with --resume.") from error
 
     def replay(self, duration: float | None = None) -> Replay:
-        """The candidate run once more with every signal; `duration` in seconds, if not the spec's.
+        """Run the candidate once more with every signal.
 
-        Errors: as `model`, InvalidComponent. A run that fails is a Replay up to its failure.
+        A run that fails is a Replay up to its failure. Raises the errors of `opened`, and InvalidComponent.
+
+        Args:
+            duration: In seconds; that of the spec by default.
         """
         return replay_of(self.opened, self.folder, duration=duration)
 
     def trajectory(self, duration: float | None = None) -> xarray.Dataset:
-        """Every output and state of the candidate's run as labelled arrays over `time` in seconds.
+        """Every output and state of the candidate's run, as labelled arrays over `time` in seconds.
 
-        Each variable has the signal's address as its name, and `units` and `long_name` as attributes;
-        numbers are SI. Attributes of the whole: status, reason, notices, origin.
-        Errors: as `replay`.
+        Each variable has the address of the signal as its name, and the attributes `units` and `long_name`. Numbers are
+        in SI. The dataset has the attributes status, reason, notices and origin. Raises the errors of `replay`.
+
+        Args:
+            duration: In seconds; that of the spec by default.
         """
         return dataset(self.replay(duration))
 
 
 def _number(text: str) -> float | int:
-    """A cell of a table; nan if it is empty.
-
-    Raises:
-        ValueError: The expression has no value.
-    """
+    """The number in a cell; nan if the cell is empty."""
     return int(text) if text.isdecimal() else float(text or math.nan)
 
 
 def load(folder: str | Path, candidate: str = "best", trust: bool = False) -> Result:
-    """A result by its folder, or by its name in the usual one.
+    """Load a result.
+
+    Args:
+        folder: Its folder, or its name in the usual folder of results.
+        candidate: best, a rank or GENERATION:INDEX of a search; best or the number of a run of a study.
+        trust: Whether to run components that this machine does not know.
 
     Raises:
         BadResult: It is none, or is damaged.

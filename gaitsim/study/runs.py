@@ -1,4 +1,4 @@
-"""Runs of what was opened: one, one for each row of a study, or one for each draw around its tuned values."""
+"""Runs of a spec or result: one, one for each row of a study, or one for each draw."""
 
 from __future__ import annotations
 
@@ -31,12 +31,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Places:
-    """Where runs go.
+    """Where runs are written.
 
     Attributes:
-        results: The folder of result folders; None keeps none.
+        results: The folder of results; None saves none.
         out: A CSV file for all signals of a single run.
-        every: Of `out`, one instant in such a time as '10 ms'; None for all.
+        every: The time between two instants in `out`, such as '10 ms'; None for every step.
     """
 
     results: Path | None
@@ -44,7 +44,7 @@ class Places:
     every: str | None = None
 
     def check(self) -> None:
-        """What will not be written is said before anything is simulated.
+        """Check before any simulation that the files can be written.
 
         Raises:
             CannotSave: The folder cannot be written.
@@ -64,7 +64,7 @@ class Places:
             )
 
     def spacing(self, models: Sequence[Model]) -> float | None:
-        """Seconds from one instant of `out` to the next; None for all.
+        """The time between two instants in `out`, in s; None for every step.
 
         Raises:
             Usage: The request does not fit.
@@ -82,13 +82,13 @@ class Places:
 
 @dataclass
 class Runs:
-    """Runs, and their outcomes as far as they were made.
+    """Runs and their outcomes so far.
 
     Attributes:
-        rows: What each run sets.
-        models: Of the rows that are valid; of draws, the one that they are around.
-        simulated: The model of each run, or why it has none.
-        notices: What a reader should know.
+        rows: The settings of each run.
+        models: The models of the valid rows; for draws, the one around which is drawn.
+        simulated: The model of each run, or the error of an invalid one.
+        notices: Notices for the user.
         outcomes: In the order of the rows.
     """
 
@@ -111,17 +111,17 @@ class Runs:
 
     @property
     def single(self) -> bool:
-        """Whether this is one run of a spec as it is."""
+        """Whether this is one run of the spec without changes."""
         return len(self.rows) == 1 and not self.rows[0].settings
 
     @property
     def folder(self) -> Path | None:
-        """The result folder; None if the runs were not kept."""
+        """The result folder; None if the runs were not saved."""
         return self.keeping.folder
 
     @property
     def unsaved(self) -> GaitsimError | None:
-        """Why the runs, or the signals, could not be kept; None if nothing stood in the way."""
+        """Why the runs or the signals could not be saved; None if they were."""
         return self.keeping.error
 
     @property
@@ -131,11 +131,11 @@ class Runs:
 
     @property
     def warnings(self) -> list[str]:
-        """What is unusual in how the runs start."""
+        """Warnings about unusual starts."""
         return self.starts.warnings
 
     def table(self) -> pandas.DataFrame:
-        """A row for each run, from 1: what it sets, status, reason, score (a cost), and its metrics in their units."""
+        """A row for each run, from 1: settings, status, reason, score (a cost), and metrics in their units."""
         import pandas
 
         rows = [
@@ -145,9 +145,9 @@ class Runs:
         return pandas.DataFrame(rows, index=pandas.RangeIndex(1, len(rows) + 1, name="run"))
 
     def run(self, listener: Listener) -> None:
-        """Simulate, and keep each run as it ends.
+        """Simulate all runs, and save each when it ends.
 
-        What cannot be kept is `unsaved`.
+        An error of saving is in `unsaved`.
 
         Raises:
             InvalidSpec: The spec breaks a rule.
@@ -201,10 +201,15 @@ class Runs:
 def prepared(
     opening: Opening, vary: Sequence[str], draws: Draws | None, mode: Mode, places: Places, listener: Listener
 ) -> Runs:
-    """The runs of what is opened, resolved and not begun.
+    """Prepare runs. Nothing is simulated yet.
 
     Args:
+        opening: The spec or result.
         vary: Values to run, each as ADDRESS=VALUES.
+        draws: The draws, if any.
+        mode: Native code ("rapid") or plain Python ("normal").
+        places: Where runs are written.
+        listener: Receives notices.
 
     Raises:
         Usage: The request does not fit.
@@ -240,7 +245,7 @@ def prepared(
 
 
 def _model(opened: Opened, row: Variant) -> Model | Invalid:
-    """The model of a row, or why there is none."""
+    """The model of a row, or the error of an invalid one."""
     try:
         return opened.model(row.document)
     except (InvalidSpec, InvalidComponent) as error:

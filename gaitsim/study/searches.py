@@ -1,4 +1,4 @@
-"""How a search begins: from a spec in a new result folder, or where an old one ended."""
+"""The beginning of searches: from a spec in a new result folder, or at the end of an interrupted one."""
 
 from __future__ import annotations
 
@@ -39,11 +39,11 @@ _LEAST = {"population": 2, "generations": 1, "seed": 0}
 
 @dataclass(frozen=True)
 class Request:
-    """What is asked of a search; None where nothing is said, and the spec decides.
+    """A request for a search. None leaves a setting to the spec.
 
     Attributes:
-        opening: Untuned, as a search starts at the numbers that the spec has.
-        origin: As of `started_from`.
+        opening: Without tuned values, because a search starts at the numbers of the spec.
+        origin: The start, as for `started_from`.
     """
 
     opening: Opening
@@ -57,7 +57,7 @@ class Request:
 
     @property
     def words(self) -> list[str]:
-        """What --resume must be told again: settings and libraries."""
+        """The options that --resume needs again: settings and libraries."""
         settings = [word for text in self.opening.settings for word in ("--set", text)]
         return [*settings, *(word for folder in self.opening.folders for word in ("--library", str(folder)))]
 
@@ -75,7 +75,7 @@ def check_adoption(opening: Opening, adopt: bool, force: bool) -> None:
 
 
 def begun(request: Request, root: Path) -> Tuning:
-    """A new search in a new result folder."""
+    """Begin a search in a new result folder."""
     path = request.opening.path
     if request.opening.names_result:
         move = f"{command('optimize', path, '--resume')}, or SPEC --from {quote(str(path))}"
@@ -109,7 +109,7 @@ def begun(request: Request, root: Path) -> Tuning:
 
 
 def resumed(request: Request, root: Path) -> Tuning:
-    """A search that was begun before: the folder named, or the newest one of the spec.
+    """Open an interrupted search: the given folder, or the newest search of the spec.
 
     Raises:
         BadResult: The folder is not a result, or the result is damaged.
@@ -141,11 +141,7 @@ def resumed(request: Request, root: Path) -> Tuning:
 
 
 def _check_links(folder: Path) -> None:
-    """A search writes into its folder, and through no link into another file.
-
-    Raises:
-        BadResult: The folder is not a result, or the result is damaged.
-    """
+    """Check that no file of the result is a link, so that a search writes into its own folder only."""
     links = sorted(path for path in folder.iterdir() if path.is_symlink())
     if links:
         rule = "this is a link, and a search that goes on would write to what it leads to"
@@ -153,11 +149,7 @@ def _check_links(folder: Path) -> None:
 
 
 def _check_beside_resume(request: Request) -> None:
-    """What a search that goes on cannot be told.
-
-    Raises:
-        Usage: The request does not fit.
-    """
+    """Refuse options that cannot be changed when a search continues."""
     if request.origin is not None or request.smoke:
         option = "--smoke" if request.smoke else "--from"
         raise Usage(f"{option} begins a new search, and --resume continues an old one; leave one out.")
@@ -168,11 +160,7 @@ def _check_beside_resume(request: Request) -> None:
 
 
 def _check_same_search(request: Request, search: dict[str, Any], mode: str) -> None:
-    """A search goes on as it was begun, but for its generations.
-
-    Raises:
-        Usage: The request does not fit.
-    """
+    """Check that a search continues as it began; only the number of generations may change."""
     for name in ("algorithm", "population", "seed"):
         asked = getattr(request, name)
         if asked is not None and asked != search[name]:
@@ -183,11 +171,7 @@ def _check_same_search(request: Request, search: dict[str, Any], mode: str) -> N
 
 
 def _recorded_search(folder: Path, manifest: dict[str, Any]) -> dict[str, Any]:
-    """How a search was begun.
-
-    Raises:
-        BadResult: The folder is not a result, or the result is damaged.
-    """
+    """The settings of the search in a manifest."""
     try:
         found = SearchSection.model_validate(manifest["search"]).model_dump()
         if found["algorithm"] not in ALGORITHMS or not isinstance(manifest["versions"], dict):
@@ -210,7 +194,7 @@ def _check_least(numbers: Mapping[str, int | None]) -> None:
 
 
 def _search_of(opened: Opened, request: Request) -> dict[str, Any]:
-    """Algorithm, population, generations and seed: the command line over the spec over defaults."""
+    """Algorithm, population, generations and seed: options of the command line, else of the spec, else defaults."""
     section = optimize_section(opened.document)
     asked = {n: getattr(request, n) for n in ("algorithm", "population", "generations", "seed")}
     smoke = _SMOKE if request.smoke else {}
@@ -224,7 +208,7 @@ def _search_of(opened: Opened, request: Request) -> dict[str, Any]:
 
 
 def _newest(spec: Path, root: Path) -> Path:
-    """The newest search of a spec that is more than a trial; whether it is damaged is seen when it is read."""
+    """The newest search of a spec, except trials. Damage is noticed when it is read."""
     found: list[tuple[str, float, Path]] = []
     trials: list[tuple[str, float, Path]] = []
     for path in root.glob(f"*-{spec.stem}-*/manifest.json"):
@@ -245,7 +229,7 @@ def _newest(spec: Path, root: Path) -> Path:
 
 
 def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
-    """A search goes on only with the spec it began with."""
+    """Check that the spec is the one with which the search began."""
     opened = request.opening.open()
     models = [opened.model(), *episode_models(opened.document, opened.library, opened.name)]
     now = opened.bundle(models).files

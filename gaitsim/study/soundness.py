@@ -1,4 +1,4 @@
-"""Whether what was opened is sound: its models, how they start, their moment arms, and whether the step is short."""
+"""The check of a spec: its models, their starts, moment arms, and convergence over steps."""
 
 from __future__ import annotations
 
@@ -30,15 +30,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Soundness:
-    """What a check found of a spec that is valid.
+    """What a check found in a valid spec.
 
     Attributes:
-        rows, models: Of its study; one without a study.
-        notices: What a reader should know.
-        doubts: What is unusual.
-        arms: Of each path about each hinge.
-        known: Values that it reproduces, beside its record as far as there is one.
-        convergence: Of each model, what a half and a quarter of the step change.
+        rows, models: Those of its study; one without a study.
+        notices: Notices for the user.
+        doubts: Unusual findings.
+        arms: The moment arm of each path about each hinge.
+        known: Values that it should reproduce, with those of its record.
+        convergence: For each model, the changes with a half and a quarter of the step.
     """
 
     rows: Sequence[Variant]
@@ -54,7 +54,12 @@ class Soundness:
 
 
 def checked(opening: Opening, convergence: bool, listener: Listener) -> Soundness:
-    """Resolve and compile what is opened; simulate it only for its convergence.
+    """Resolve and compile a spec or result.
+
+    Args:
+        opening: The spec or result.
+        convergence: Whether to simulate it at its step, a half and a quarter.
+        listener: Receives notices.
 
     Raises:
         InvalidSpec: With all faults.
@@ -82,7 +87,7 @@ def checked(opening: Opening, convergence: bool, listener: Listener) -> Soundnes
 
 
 def _unknown_sources(model: Model, library: Library) -> Iterator[Fault]:
-    """Sources of known values that no bibliography has."""
+    """Sources of known values that are not in the bibliography."""
     keys = set(read_bibliography(library.folders)) if model.reproduces else set()
     for known in model.reproduces:
         for key in keys_of(known.source):
@@ -91,7 +96,7 @@ def _unknown_sources(model: Model, library: Library) -> Iterator[Fault]:
 
 
 def _recorded(opening: Opening) -> Map[str, Value]:
-    """The numbers of the first run as recorded; none of a result, of a spec with settings, and without a record."""
+    """The recorded numbers of the first run; none for a result, for a spec with settings, and without a record."""
     if opening.names_result or opening.settings:
         return {}
     try:
@@ -101,7 +106,7 @@ def _recorded(opening: Opening) -> Map[str, Value]:
 
 
 def _convergence_of(models: Sequence[Model], listener: Listener) -> list[StepConvergence]:
-    """Each model at its step, a half and a quarter; failed runs are told."""
+    """The convergence of each model over its step, a half and a quarter. Failed runs are reported."""
     from gaitsim.analysis.models.step_convergence import step_convergence
 
     found = []

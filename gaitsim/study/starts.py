@@ -1,4 +1,4 @@
-"""What a command says of how its runs start: warned of what is unusual, refused what is beyond reason."""
+"""Checks of starts: unusual ones are reported, impossible ones are refused."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 class Starts:
-    """Looks at simulators once they are prepared, and keeps what is unusual, each thing once."""
+    """Examines prepared simulators, and collects each unusual finding once."""
 
     def __init__(self, opened: Opened) -> None:
         # A result ran as it is: it is shown, whatever one thinks of its start.
@@ -24,7 +24,7 @@ class Starts:
         """Examine the first instant of a model.
 
         Raises:
-            InvalidSpec: A start that cannot be meant.
+            InvalidSpec: A signal is outside its possible range.
         """
         from gaitsim.simulation.starting import start_doubts
 
@@ -35,5 +35,5 @@ class Starts:
 
     @property
     def warnings(self) -> list[str]:
-        """In words."""
+        """The findings in words."""
         return [f"warning: {fault}" for fault in self.unusual]

@@ -1,4 +1,4 @@
-"""What `gaitsim new` puts into a folder: texts by file name."""
+"""The files that `gaitsim new` writes into a folder."""
 
 from __future__ import annotations
 
@@ -52,11 +52,7 @@ parts:
 
 
 def study(origin: str) -> dict[str, str]:
-    """The files of a new folder that begins with a shipped spec.
-
-    Raises:
-        Usage: The request does not fit.
-    """
+    """The files of a new folder that begins with a shipped spec, as texts by name."""
     specs = shipped_specs()
     if origin not in specs:
         raise Usage(f"--from {origin}: no such spec is shipped. {did_you_mean(origin, specs)}")
@@ -73,7 +69,7 @@ def study(origin: str) -> dict[str, str]:
 
 
 def _without_own(readme: str) -> str:
-    """The text for a model in which no part is a muscle's feedback, so that none was replaced."""
+    """The text for a model without a muscle feedback, so that none was replaced."""
     kept = [line for line in readme.splitlines(keepends=True) if not (line.startswith("| `") and "my_" in line)]
     begin = "    gaitsim library new controller my_reflex           # a component of your own\n\n"
     text = "".join(kept).replace("my_{origin}", "{origin}")
@@ -81,14 +77,14 @@ def _without_own(readme: str) -> str:
 
 
 def _shipped_files(spec: Path) -> dict[str, str]:
-    """A shipped spec, those that it extends, and the values that were tuned for each."""
+    """A shipped spec, the specs that it extends, and the tuned values of each."""
     chain = [spec, *parents(spec)]
     files = [file for one in chain for file in (one, tuned_path(one)) if file.is_file()]
     return {file.name: file.read_text(encoding="utf-8") for file in files}
 
 
 def feedback_of(document: MappingNode) -> str | None:
-    """The part of a spec that is a muscle's feedback."""
+    """The part of a spec that is the feedback of a muscle."""
     parts = document.entries.get("parts")
     for name, node in (parts.entries if isinstance(parts, MappingNode) else {}).items():
         use = node.entries.get("use") if isinstance(node, MappingNode) else None

@@ -1,4 +1,4 @@
-"""Times as they are written: 2 s, 300 ms."""
+"""Times as options have them: 2 s, 300 ms."""
 
 from __future__ import annotations
 
@@ -10,7 +10,14 @@ _TIME = "write a time, such as '2 s' or '300 ms'."
 
 
 def seconds_of(option: str, text: str | None) -> float | None:
-    """A time such as '2 s', '300 ms' or 2.
+    """Read a time such as '2 s', '300 ms' or 2.
+
+    Args:
+        option: The name of the option, for messages.
+        text: The time; None for none.
+
+    Returns:
+        The time in s; None without a text.
 
     Raises:
         Usage: The request does not fit.

@@ -1,4 +1,4 @@
-"""A search and its result folder: run, left complete, or left so that it can go on."""
+"""A search with its result folder. It ends complete, or in a state from which it can continue."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ class Tuning:
         return "normal" if self.manifest["mode"] == "normal" else "rapid"
 
     def run(self, workplace: Workplace, watch: Callable[[Progress], None], say: Callable[[str], None]) -> Progress:
-        """Search, and leave the folder complete; or interrupted, with everything in its journal.
+        """Search. The folder is then complete, or interrupted with everything in its journal.
 
         Raises:
             Locked: Another process writes this result.
@@ -85,7 +85,7 @@ class Tuning:
     def _search(
         self, closing: ExitStack, workplace: Workplace, watch: Callable[[Progress], None], say: Callable[[str], None]
     ) -> Search:
-        """The search with all that it writes to; what is opened is closed with `closing`."""
+        """Make the search with its files, which are closed by `closing`."""
         asked = self.manifest["search"]
         journal = Journal(self.folder)
         closing.callback(journal.close)
@@ -98,7 +98,11 @@ class Tuning:
         return Search(self.problem, algorithm, evaluator, journal, rows, timings.add, watch)
 
     def discard_if_empty(self) -> bool:
-        """Remove a folder in which nothing was evaluated; whether that was so."""
+        """Remove the folder if nothing was evaluated.
+
+        Returns:
+            Whether it was removed.
+        """
         if any(read(self.folder)):
             return False
         shutil.rmtree(self.folder)

@@ -1,4 +1,4 @@
-"""Who uses a component: specs, by what they resolve to, and results, by the copies that they hold."""
+"""The users of a component: specs that resolve to it, and results that hold a copy of it."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class UsingSpec:
 
 @dataclass(frozen=True)
 class UsingResult:
-    """A result that holds a copy of a component: its folder, when it was made, and the version of the copy."""
+    """A result with a copy of a component: its folder, its date, and the version of the copy."""
 
     folder: Path
     created: str
@@ -40,12 +40,13 @@ class UsingResult:
 
 @dataclass(frozen=True)
 class Scope:
-    """Where users of components are looked for.
+    """Where users of components are searched for.
 
     Attributes:
-        words: Specs and folders of specs; none for the shipped ones, those right here, and those of the lab's projects.
+        words: Specs and folders of specs; if empty, the shipped ones, those in this folder, and those of the lab's
+            projects.
         results: Folders of results.
-        folders: Of more components, before all others but those beside a spec.
+        folders: Folders of more components, which are searched before all others except those beside a spec.
     """
 
     words: tuple[str, ...]
@@ -53,7 +54,7 @@ class Scope:
     folders: tuple[Path, ...] = ()
 
     def library(self) -> Library:
-        """The components that are meant by their names.
+        """The library in which components are looked up.
 
         Raises:
             Usage: The request does not fit.
@@ -75,7 +76,7 @@ class Scope:
         return found
 
     def specs(self) -> list[Archived]:
-        """Every spec that is looked at.
+        """All specs that are searched.
 
         Raises:
             Usage: The request does not fit.
@@ -91,7 +92,7 @@ class Scope:
 
 
 def using_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[UsingSpec]:
-    """The specs that use a component or a table; of one that does not resolve, the listener hears.
+    """The specs that use a component or a table. A spec that cannot be resolved is reported to the listener.
 
     Raises:
         Usage: The request does not fit.
@@ -110,7 +111,7 @@ def using_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[Us
 
 
 def using_results(reference: str, scope: Scope, listener: Listener) -> Iterator[UsingResult]:
-    """The results that hold a copy of a component or a table, oldest first; of a damaged one the listener hears."""
+    """The results with a copy of a component or a table, oldest first. A damaged one is reported to the listener."""
     found = []
     for manifest_file in [path for root in scope.results for path in sorted(root.glob("*/manifest.json"))]:
         folder = manifest_file.parent
@@ -129,7 +130,7 @@ def using_results(reference: str, scope: Scope, listener: Listener) -> Iterator[
 
 
 def _is_spec(path: Path) -> bool:
-    """Whether a file is meant as a spec: tuned values and other files in YAML are none."""
+    """Whether a YAML file is a spec, and not tuned values or something else."""
     try:
         return not path.stem.endswith(".tuned") and "gaitsim" in parse(path.read_text(encoding="utf-8"), "").entries
     except (OSError, UnicodeError, GaitsimError):

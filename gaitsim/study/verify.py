@@ -1,4 +1,4 @@
-"""Does a result still reproduce? Candidates are run again from its own copies and compared bit for bit."""
+"""Verification of results: candidates are run again from the result's own copies and compared bit for bit."""
 
 from __future__ import annotations
 
@@ -24,10 +24,10 @@ _ENDED = ("killed", "timeout")  # what hung or killed a worker would do so again
 
 @dataclass(frozen=True)
 class Check:
-    """One candidate run again: its name and what differs, if anything.
+    """One candidate that was run again: its name and the differences.
 
     Attributes:
-        largest: Relative difference of a number; inf if more than numbers differs, 0 if nothing does.
+        largest: The largest relative difference of a number; inf if something else differs, 0 if nothing does.
     """
 
     name: str
@@ -36,7 +36,12 @@ class Check:
 
 
 def verified(bundle: Bundle, manifest: Mapping[str, Any], everything: bool) -> Iterator[Check]:
-    """Run candidates of a result again: the best, the start and some between; or all of them.
+    """Run candidates of a result again.
+
+    Args:
+        bundle: The bundle of the result.
+        manifest: Its manifest.
+        everything: Whether to run all candidates, instead of the best, the start and some others.
 
     Raises:
         BadResult: The folder is not a result, or the result is damaged.
@@ -81,19 +86,19 @@ def _check(name: str, before: Mapping[str, Any], now: Mapping[str, Any]) -> Chec
 
 
 def _relative(old: object, new: object) -> float:
-    """By how much of the larger two numbers differ; inf for what is no number, or a count."""
+    """The difference of two numbers relative to the larger one; inf if one is not a number, and for counts."""
     if not (isinstance(old, float) and isinstance(new, float)):
         return math.inf
     return abs(new - old) / max(abs(old), abs(new))
 
 
 def differences(before: Mapping[str, Any], now: Mapping[str, Any]) -> tuple[str, ...]:
-    """What two runs, as `row_data` gives them, do not share bit for bit, in words."""
+    """The differences of two runs in the form of `row_data`, in words. Numbers are compared bit for bit."""
     return tuple(f"{what}: {old!r} -> {new!r}" for what, old, new in _pairs(before, now) if old != new)
 
 
 def _pairs(before: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[tuple[str, Any, Any]]:
-    """What is compared of two runs: its name, and what each has."""
+    """The names of what is compared of two runs, with both values."""
     for name in COMPARED:
         if name == "metrics":
             both = [*before["metrics"], *(m for m in now["metrics"] if m not in before["metrics"])]
@@ -103,7 +108,7 @@ def _pairs(before: Mapping[str, Any], now: Mapping[str, Any]) -> Iterator[tuple[
 
 
 def _sample(found: list[Evaluation]) -> list[Evaluation]:
-    """The best, the first, the last, and some evenly between."""
+    """The best, the first and the last candidate, and some evenly between."""
     count = min(len(found), 10)
     even = {round(i * (len(found) - 1) / max(1, count - 1)) for i in range(count)}
     best = min(range(len(found)), key=lambda i: found[i].cost)

@@ -1,4 +1,4 @@
-"""Where candidates are evaluated: in this process, on this machine's cores, or on a scheduler's workers."""
+"""Where candidates are evaluated: in this process, in processes of this machine, or on the workers of a scheduler."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from gaitsim.simulation.run import Mode
 
 @dataclass(frozen=True)
 class Workplace:
-    """What --workers, --cluster, --scheduler and --scheduler-file say."""
+    """The options --workers, --cluster, --scheduler and --scheduler-file."""
 
     workers: int | None
     cluster: bool
@@ -41,13 +41,13 @@ class Workplace:
 
     @property
     def words(self) -> list[str]:
-        """The options that name this workplace again."""
+        """The options that describe this workplace."""
         named = {"--workers": self.workers, "--scheduler": self.scheduler, "--scheduler-file": self.scheduler_file}
         said = [word for option, value in named.items() if value is not None for word in (option, str(value))]
         return ["--cluster", *said] if self.cluster else said
 
     def evaluator(self, task: Task, say: Callable[[str], None]) -> Evaluator:
-        """What evaluates the candidates of a bundle.
+        """Make the evaluator of a bundle's candidates.
 
         Raises:
             ClusterError: The cluster fails or cannot be reached.
@@ -58,7 +58,7 @@ class Workplace:
 
 @dataclass(frozen=True)
 class Task:
-    """What is evaluated: candidates of a bundle, in a mode, and how long one may take."""
+    """What is evaluated: candidates of a bundle, in a mode, with a time limit for each."""
 
     bundle: Bundle
     mode: Mode
@@ -67,7 +67,7 @@ class Task:
 
 @dataclass(frozen=True)
 class Backend:
-    """A way to evaluate candidates: whether a workplace asks for it, and what makes its evaluator."""
+    """A way to evaluate candidates: whether a workplace asks for it, and how to make its evaluator."""
 
     asked: Callable[[Workplace], bool]
     make: Callable[[Workplace, Task, Callable[[str], None]], Evaluator]
