@@ -16,6 +16,7 @@ import numpy as np
 from gaitsim.optimization.evaluation import Evaluation
 from gaitsim.optimization.problem import Problem
 
+GENERATIONS = "generations.csv"
 # "spread" is the standard deviation of the scores; the column keeps the name that it has in files of older searches.
 _COLUMNS = ("generation", "evaluations", "best", "generation_best", "median", "spread", "failed")
 
@@ -62,7 +63,7 @@ class GenerationsFile:
     """generations.csv: one row per generation, flushed at once."""
 
     def __init__(self, folder: Path) -> None:
-        self._stream: IO[str] = (folder / "generations.csv").open("w", encoding="utf-8", newline="")
+        self._stream: IO[str] = (folder / GENERATIONS).open("w", encoding="utf-8", newline="")
         self._stream.write(_row(_COLUMNS))
 
     def add(self, generation: Generation) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -93,8 +94,22 @@ def _row(folder: Path) -> dict[str, Any]:
         manifest = recorded_manifest(folder)
     except BadResult:
         manifest = {"kind": "?", "status": "damaged", "created": "", "name": folder.name}
+    if manifest["kind"] == "optimize" and "best_score" not in manifest:
+        manifest = {**manifest, **_so_far(folder)}
     keys = ("name", "kind", "status", "best_score", "evaluations", "created")
     return {"result": str(folder), **{key: manifest.get(key) for key in keys}, "notes": notes_of(folder)}
+
+
+def _so_far(folder: Path) -> Row:
+    """Where a search stands that has not come to its end: its last whole generation; nothing before the first."""
+    from gaitsim.optimization.history import GENERATIONS
+
+    try:
+        with (folder / GENERATIONS).open(encoding="utf-8", newline="") as stream:
+            *_, last = (row for row in csv.DictReader(stream) if row["failed"])
+            return {"best_score": float(last["best"]), "evaluations": int(last["evaluations"])}
+    except (OSError, ValueError, KeyError, TypeError, csv.Error):
+        return {}
 
 
 def _uses(folder: Path, reference: str) -> bool:

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from gaitsim.analysis.replays.replay import Replay, dataset
 from gaitsim.model import Model
+from gaitsim.optimization.history import GENERATIONS
 from gaitsim.results.manifest import BadResult, read_manifest, result_named
 from gaitsim.study.opened import Opened, open_result
 from gaitsim.study.replays import replay_of
@@ -98,7 +99,7 @@ class Result:
         """
         import pandas
 
-        path = self.folder / "generations.csv"
+        path = self.folder / GENERATIONS
         if self.manifest["kind"] != "optimize":
             raise BadResult(f"{self.folder}: this is the result of a run; only a search has a history.")
         try:

@@ -61,6 +61,22 @@ def test_results_are_filtered_and_sorted(capsys: Capture) -> None:
     assert "Alice <a@b>: the good one" in gaitsim(capsys, "results", "list").out
 
 
+def test_a_search_that_has_not_ended_is_listed_with_its_last_whole_generation(capsys: Capture) -> None:
+    folder = ran(capsys)
+    path = folder / "manifest.json"
+    manifest = {k: v for k, v in json.loads(path.read_text()).items() if k not in ("best_score", "evaluations")}
+    path.write_text(json.dumps(manifest | {"kind": "optimize", "status": "interrupted"}))
+    head = "generation,evaluations,best,generation_best,median,spread,failed\n"
+    for rows, found in (
+        ("", (None, None)),
+        ("0,1,-0.1,-0.1,-0.1,0.0,0\n1,9,-0.25,-0.2,-0.1,0.1,2\n", (-0.25, 9)),
+        ("0,1,-0.1,-0.1,-0.1,0.0,0\n1,9,-0.2", (-0.1, 1)),
+    ):
+        (folder / "generations.csv").write_text(head + rows)
+        (row,) = json.loads(gaitsim(capsys, "results", "list", "--json").out)["results"]
+        assert (row["best_score"], row["evaluations"]) == found
+
+
 @pytest.mark.parametrize(
     ("words", "said"),
     [
