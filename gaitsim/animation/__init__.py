@@ -1,4 +1,4 @@
-"""Pictures of a recorded motion: video files, and MuJoCo's viewer."""
+"""Films of a recorded motion, as video files and in MuJoCo's viewer."""
 
 import gaitsim.compiler  # noqa: F401  MuJoCo is imported there first
 from gaitsim.animation.errors import CannotAnimate, NoDisplay, NoOpenGL

@@ -1,4 +1,6 @@
-"""Muscles whose path is a moment arm and has no places: which hinges they turn, which way, and how far from them."""
+"""Muscles whose paths are declared moment arms without places: which hinges they turn, in which direction, at which
+distance.
+"""
 
 from __future__ import annotations
 
@@ -17,9 +19,10 @@ _NOTHING = 1e-6  # m
 
 @dataclass(frozen=True)
 class Arm:
-    """A path at one hinge: the joint's name, the largest arm near the neutral posture, and the length there, in m.
+    """A path at one hinge: the name of the joint, the largest moment arm near the neutral posture, and the length
+    there, in m.
 
-    The arm is positive where tension makes MuJoCo's coordinate of the joint grow.
+    The arm is positive where tension increases MuJoCo's coordinate of the joint.
     """
 
     joint: str
@@ -29,7 +32,7 @@ class Arm:
 
 @dataclass(frozen=True)
 class ArmPath:
-    """The whole path of a muscle: its address, the signal of the muscle's activation, and what it crosses."""
+    """The whole path of a muscle: its address, the signal of the muscle's activation, and its arms at hinges."""
 
     address: str
     activation: str
@@ -38,7 +41,7 @@ class ArmPath:
 
 
 def arm_paths(model: Model, assembly: Assembly) -> list[ArmPath]:
-    """Paths of muscles whose moment reaches a hinge; others, such as those of massless legs, are left out."""
+    """The muscle paths whose moment acts on a hinge. Other paths, such as those of massless legs, are left out."""
     found: defaultdict[tuple[str, str], list[Arm]] = defaultdict(list)
     for crossing in crossings(model, assembly):
         largest = max((crossing.arm(crossing.neutral + turn) for turn in _SEARCHED), key=abs)

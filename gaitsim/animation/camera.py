@@ -1,4 +1,4 @@
-"""Where the camera looks: along with the motion, without its bounces."""
+"""The camera follows the motion without its bounces."""
 
 from __future__ import annotations
 
@@ -22,11 +22,11 @@ _ROOM = 0.3  # of the body's height: the longest force arrow
 
 @dataclass(frozen=True)
 class Views:
-    """The point that is looked at for each frame (frames x 3, m), and how far away the camera stands (m).
+    """The point in the center of each frame (frames x 3, in m), and the distance of the camera (in m).
 
     Attributes:
-        newtons: What an arrow of one metre stands for.
-        view: A name of `VIEWS`.
+        newtons: The force of an arrow of one metre.
+        view: A name in `VIEWS`.
     """
 
     points: Floats
@@ -36,20 +36,20 @@ class Views:
 
     @property
     def away(self) -> Floats:
-        """The way from the camera along the ground."""
+        """The horizontal direction away from the camera."""
         return _axes(self.view)[1]
 
     @property
     def half_height(self) -> float:
-        """Of what is seen at the body, in m."""
+        """Half the height of what is visible at the body, in m."""
         return self.distance * math.tan(math.radians(FIELD / 2))
 
     def pixels_of_a_metre(self, height: int) -> float:
-        """At the body, in a picture of this height in pixels."""
+        """The pixels of one metre at the body, in a picture of this height in pixels."""
         return height / (2 * self.half_height)
 
     def camera(self, frame: int) -> mujoco.MjvCamera:
-        """From the right side, so that forwards is to the right; or from behind, or between the two."""
+        """The camera of a frame: at the right side, so that forwards is to the right, or behind, or between the two."""
         camera = mujoco.MjvCamera()
         camera.azimuth, camera.elevation = VIEWS[self.view]
         camera.distance = self.distance
@@ -65,10 +65,15 @@ def follow(
     words: tuple[float, float] = (0, 0),
     view: str = "side",
 ) -> Views:
-    """Views of the given instants, `spacing` seconds apart, for a picture `aspect` times as wide as high.
+    """The views of some instants.
 
     Args:
-        words: The parts of its height that are written on, above and below; the body stays between them.
+        posture: The recorded motion.
+        rows: The instants.
+        spacing: The time between them, in s.
+        aspect: Width over height of the picture.
+        words: The shares of the height that texts cover, above and below; the body stays between them.
+        view: A name in `VIEWS`.
     """
     right, away = _axes(view)
     above, below = max(_ABOVE, words[0]), max(_BELOW, words[1])
@@ -96,14 +101,14 @@ def follow(
 
 
 def _axes(view: str) -> tuple[Floats, Floats]:
-    """What is to the right in a picture, and what is away from the camera, along the ground."""
+    """The horizontal directions to the right in a picture, and away from the camera."""
     azimuth = math.radians(VIEWS[view][0])
     sine, cosine = round(math.sin(azimuth), 12), round(math.cos(azimuth), 12)
     return np.array([sine, -cosine, 0.0]), np.array([cosine, sine, 0.0])
 
 
 def _turned(centers: Floats, lows: Floats, highs: Floats, right: Floats, away: Floats) -> tuple[Floats, Floats, Floats]:
-    """Centers and corners of boxes along the axes of a picture: to the right, away, up."""
+    """Centers and corners of boxes along the axes of a picture: right, away, up."""
     found = [centers.copy(), lows.copy(), highs.copy()]
     for i, axis in enumerate((right, away)):
         found[0][:, i] = centers @ axis
@@ -113,13 +118,13 @@ def _turned(centers: Floats, lows: Floats, highs: Floats, right: Floats, away: F
 
 
 def _centered(path: Floats, lows: Floats, highs: Floats) -> tuple[Floats, Floats]:
-    """A path moved so that what is seen reaches as far to either side of it, and how far that is."""
+    """A path that is moved so that the visible range extends equally to both sides, and that range."""
     above, below = np.max(highs - path, axis=0), np.max(path - lows, axis=0)
     return path + (above - below) / 2, (above + below) / 2
 
 
 def _scale(posture: Posture, rows: NDArray[np.int64], height: float) -> float:
-    """Newtons for a metre of arrow: 1, 2 or 5 times a power of ten, so that the longest has room."""
+    """The newtons of one metre of arrow: 1, 2 or 5 times a power of ten, so that the longest arrow fits."""
     columns = [
         posture.trajectory.signals.index(signal)
         for force in posture.stage.forces
@@ -136,7 +141,7 @@ def _scale(posture: Posture, rows: NDArray[np.int64], height: float) -> float:
 
 
 def _smooth(path: Floats, spacing: float) -> Floats:
-    """A moving mean with a bell's weights; beyond its ends the path goes on as it came."""
+    """A moving average with Gaussian weights. Beyond its ends the path is extrapolated."""
     reach = min(len(path) - 1, math.ceil(3 * _SMOOTHING / spacing))
     if reach < 1:
         return path.copy()

@@ -19,7 +19,7 @@ _GEOMS = 2000
 
 
 class Canvas:
-    """Draws one stage for as long as the block lasts; sizes in pixels."""
+    """Draws one stage during a block. Sizes are in pixels."""
 
     def __init__(self, posture: Posture, width: int, height: int) -> None:
         self.posture, self.width, self.height = posture, width, height
@@ -48,7 +48,7 @@ class Canvas:
         self._opengl.__exit__(kind, error, trace)
 
     def picture(self, views: Views, frame: int) -> Pixels:
-        """The present posture from a frame's view: height x width x 3."""
+        """The present posture in the view of a frame: an array of height x width x 3."""
         overlay.paint_muscles(self.posture)
         mechanics, data = self.posture.stage.mechanics, self.posture.data
         everything = mujoco.mjtCatBit.mjCAT_ALL.value
@@ -62,7 +62,7 @@ class Canvas:
 
 
 def seen() -> Any:
-    """What is drawn of a model: bodies and paths, but no marks of sites and motors."""
+    """MuJoCo's options of what is visible: bodies and paths, without marks of sites and actuators."""
     wishes = mujoco.MjvOption()
     wishes.flags[mujoco.mjtVisFlag.mjVIS_ACTUATOR] = False
     wishes.sitegroup[:] = 0

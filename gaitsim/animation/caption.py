@@ -1,4 +1,4 @@
-"""What is written on the picture: name, time, speed, and what colours and arrows mean."""
+"""Texts in the picture: name, time, speed, and the meaning of colours and arrows."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ Pixels = NDArray[np.uint8]
 
 @dataclass(frozen=True)
 class Caption:
-    """The words on pictures of one size, in pixels.
+    """The texts on pictures of one size, in pixels.
 
     Attributes:
-        newtons: What an arrow of a metre stands for; None without arrows.
-        metre: Its length in pixels.
-        ending: How the run was stopped, from a time in s on; empty if it was not.
+        newtons: The force of an arrow of one metre; None without arrows.
+        metre: The length of one metre in pixels.
+        ending: How the run was stopped, and the time from which this is shown in s; empty if it was not.
     """
 
     name: str
@@ -35,11 +35,11 @@ class Caption:
 
     @property
     def font(self) -> int:
-        """Size of letters in pixels."""
+        """The size of letters in pixels."""
         return font_of(self.width, self.height)
 
     def put_on(self, picture: Pixels, time: float) -> Pixels:
-        """A picture with its words, at a time in seconds."""
+        """Write the texts on a picture, at a time in s."""
         picture, font = np.array(picture), self.font
         edge = 0.7 * font
         words = [
@@ -59,7 +59,7 @@ class Caption:
         return write(picture, words)
 
     def _arrow(self, picture: Pixels, row: float, newtons: float) -> Words:
-        """How long a round number of newtons is drawn."""
+        """The scale of arrows: the length of a round number of newtons."""
         force = round_below(newtons * 0.2 * self.width / self.metre)
         left, right = round(0.7 * self.font), round(0.7 * self.font + force / newtons * self.metre)
         half, head = max(1, round(0.08 * self.font)), round(0.45 * self.font)
@@ -84,22 +84,22 @@ class Caption:
 
 
 def font_of(width: int, height: int) -> int:
-    """Size of letters in pixels on a picture of this size."""
+    """The size of letters on a picture of this size, in pixels."""
     return max(10, round(min(width / 30, height / 36)))
 
 
 def room_for(width: int, height: int, lines_below: int) -> tuple[float, float]:
-    """The parts of a picture's height that have words: three lines above, and so many below."""
+    """The shares of a picture's height that texts cover: three lines above, and a number of lines below."""
     font = font_of(width, height)
     return 5.2 * font / height, (0.7 + 1.6 * lines_below) * font / height if lines_below else 0.0
 
 
 def speed_words(speed: float) -> str:
-    """How fast the video is, in words."""
+    """The speed of the video, in words."""
     return f"{speed:g} × real time"
 
 
 def round_below(number: float) -> float:
-    """The largest of 1, 2, 5 times a power of ten that is not above a number."""
+    """The largest of 1, 2, 5 times a power of ten that does not exceed a number."""
     power = 10.0 ** math.floor(math.log10(number))
     return max(step * power for step in (1, 2, 5) if step * power <= number * (1 + 1e-9))

@@ -1,4 +1,4 @@
-"""Colours with a meaning: activation of muscles, forces."""
+"""Colours of muscle activation and of forces."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _ACTIVE = np.array([0.90, 0.07, 0.07])
 
 
 def of_activation(level: float) -> NDArray[np.float64]:
-    """Red, green, blue in 0 to 1: blue at rest, red at full activation."""
+    """The colour of an activation, as red, green and blue from 0 to 1: blue at rest, red at full activation."""
     share = 2 * min(1.0, max(0.0, level))
     if share < 1:
         return np.asarray((1 - share) * _RESTING + share * _HALF)
@@ -24,5 +24,5 @@ def of_activation(level: float) -> NDArray[np.float64]:
 
 @cache
 def scale(count: int) -> NDArray[np.uint8]:
-    """The colours of activation from 0 to 1: count x 3, each in 0 to 255."""
+    """The colours of activations from 0 to 1: an array of count x 3 values from 0 to 255."""
     return np.round([255 * of_activation(level) for level in np.linspace(0, 1, count)]).astype(np.uint8)

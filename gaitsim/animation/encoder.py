@@ -1,4 +1,4 @@
-"""Video files: MP4 that browsers play, or GIF. Frames are passed on one by one."""
+"""Video files: MP4 for browsers, or GIF. Frames are encoded one by one."""
 
 from __future__ import annotations
 
@@ -19,12 +19,13 @@ _COLOURS = 256
 
 
 class Encoder:
-    """Writes frames into a file that is complete or absent.
+    """Writes frames to a file that is complete or absent.
 
     Args:
-        rate: Frames in a second.
+        path: The file.
+        rate: Frames per second.
         size: Width and height in pixels.
-        sample: For a GIF, pixels with all the colours that it must show.
+        sample: For a GIF, pixels with all colours of the film.
     """
 
     def __init__(self, path: Path, rate: float, size: tuple[int, int], sample: Pixels | None = None) -> None:
@@ -53,11 +54,7 @@ class Encoder:
         return self
 
     def add(self, frame: Pixels) -> None:
-        """One more frame: height x width x 3.
-
-        Raises:
-            CannotAnimate: Such as a full disk.
-        """
+        """Add a frame, an array of height x width x 3."""
         try:
             self._process.stdin.write(np.ascontiguousarray(frame).data)
         except OSError as error:
@@ -107,7 +104,7 @@ class Encoder:
         return ["-c:v", "libx264", *look, "-movflags", "+faststart", "-an"]
 
     def _written_palette(self) -> Path:
-        """256 colours that stand for all of the sample's, as ffmpeg reads them: 16 x 16 pixels."""
+        """A picture of 256 colours that represent the sample, for ffmpeg: 16 x 16 pixels."""
         from PIL import Image
 
         assert self._sample is not None

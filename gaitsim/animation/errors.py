@@ -1,4 +1,4 @@
-"""Why there is no picture."""
+"""Errors of films."""
 
 from __future__ import annotations
 
@@ -6,18 +6,18 @@ from gaitsim.errors import ExitCode, GaitsimError
 
 
 class NoOpenGL(GaitsimError):
-    """This machine draws no pictures; one line names what it lacks."""
+    """This machine cannot draw pictures; the text says what it lacks."""
 
     exit_code = ExitCode.FAILED
 
 
 class NoDisplay(GaitsimError):
-    """There is no screen for a window."""
+    """There is no display for a window."""
 
     exit_code = ExitCode.FAILED
 
 
 class CannotAnimate(GaitsimError):
-    """There is no motion to show, a joint's coordinate was not recorded, or the file cannot be written."""
+    """There is no motion, a joint coordinate was not recorded, or the file cannot be written."""
 
     exit_code = ExitCode.FAILED

@@ -1,4 +1,4 @@
-"""Words on pixels."""
+"""Text on pictures."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ INK = (30, 34, 40)
 
 @dataclass(frozen=True)
 class Words:
-    """A line of text at a place in pixels from the left and the top, where its `anchor` is; size in pixels.
+    """A line of text. Its `anchor` is at a position in pixels from the left and the top; its size is in pixels.
 
     Attributes:
-        anchor: L, m or r (left, middle, right) and a, m or s (top, middle, baseline).
+        anchor: l, m or r (left, middle, right), followed by a, m or s (top, middle, baseline).
     """
 
     text: str

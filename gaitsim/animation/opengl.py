@@ -1,4 +1,4 @@
-"""OpenGL without a window: EGL or OSMesa, whichever is there, or what MUJOCO_GL says."""
+"""OpenGL without a window: EGL or OSMesa, whichever is installed, or what MUJOCO_GL names."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _NO_DEVICES = 0
 
 
 def backend() -> str:
-    """Which OpenGL draws: egl, osmesa, glfw or cgl.
+    """The OpenGL that draws: egl, osmesa, glfw or cgl.
 
     Raises:
         NoOpenGL: Naming the system's package that is missing.
@@ -71,7 +71,7 @@ def _library(name: str) -> Any:
 
 
 def _devices(library: Any) -> int:
-    """How many devices EGL can draw on; without a driver it has none."""
+    """The number of devices on which EGL can draw; 0 without a driver."""
     try:
         library.eglGetProcAddress.restype = ctypes.c_void_p
         address = library.eglGetProcAddress(b"eglQueryDevicesEXT")
@@ -90,7 +90,7 @@ def has_display() -> bool:
 
 
 class OpenGL:
-    """A context to draw in for as long as the block lasts; sizes in pixels."""
+    """A context for drawing during a block. Sizes are in pixels."""
 
     def __init__(self, width: int, height: int) -> None:
         self._name, self._size = backend(), (width, height)
@@ -112,7 +112,7 @@ class OpenGL:
         return self
 
     def painter(self, model: Any) -> Any:
-        """MuJoCo's own drawing context for a model, drawing into memory."""
+        """MuJoCo's drawing context for a model, which draws into memory."""
         painter = mujoco.MjrContext(model, mujoco.mjtFontScale.mjFONTSCALE_100.value)
         mujoco.mjr_setBuffer(mujoco.mjtFramebuffer.mjFB_OFFSCREEN.value, painter)
         return painter

@@ -1,4 +1,4 @@
-"""What is drawn beside the bodies: massless limbs as lines, forces as arrows, activation as colour."""
+"""Drawings beside the bodies: massless limbs as lines, forces as arrows, activation as colour."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def paint_muscles(posture: Posture) -> None:
 
 
 def add(scene: Any, posture: Posture, views: Views) -> None:
-    """Add lines, and arrows as long and wide as these views have them, to a scene of MuJoCo's."""
+    """Add lines, and arrows in the scale of these views, to a scene of MuJoCo."""
     width = _ARROW * views.half_height
     for line in posture.stage.lines:
         places = [posture.place(spot) for spot in line.spots]

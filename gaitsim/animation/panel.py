@@ -1,4 +1,4 @@
-"""Scopes beside the picture: drawn once by matplotlib, then only uncovered up to the present time."""
+"""Plots of signals beside the picture. matplotlib draws them once, and they are uncovered up to the present time."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _CURSOR = (200, 30, 30)
 
 @dataclass(frozen=True)
 class _Page:
-    """Scopes from one time to another: faint, and as they are uncovered; columns of the axes' ends."""
+    """The plots of a period of time, faint and bright, and the pixel columns of the ends of the axes."""
 
     begin: float
     end: float
@@ -43,7 +43,7 @@ class _Page:
 
 @dataclass
 class Panel:
-    """Scopes of some signals over a stretch of time; sizes in pixels, times in seconds."""
+    """Plots of signals over a period of time. Sizes are in pixels, times in s."""
 
     trajectory: Trajectory
     signals: Sequence[Signal]
@@ -56,11 +56,11 @@ class Panel:
 
     @property
     def scale(self) -> float:
-        """Of letters and lines: 1 in a panel 740 pixels wide and 720 high."""
+        """The scale of letters and lines: 1 in a panel of 740 x 720 pixels."""
         return max(0.55, min(self.width / 740, self.height / 720 * 1.2))
 
     def picture(self, row: int) -> Pixels:
-        """The scopes at a recorded instant: height x width x 3."""
+        """The plots at a recorded instant: an array of height x width x 3."""
         time = float(self.trajectory.times[row])
         page = self._page(time)
         share = (time - page.begin) / (page.end - page.begin)
@@ -74,7 +74,7 @@ class Panel:
         return write(pixels, self._values(row, page))
 
     def _values(self, row: int, page: _Page) -> list[Words]:
-        """The numbers at this instant, to the right of each scope."""
+        """The values at this instant, to the right of each plot."""
         size, left = max(9, round(15 * self.scale)), page.right + 10 * self.scale
         words = []
         for signal, middle in zip(self.signals, self._rows, strict=True):
@@ -84,7 +84,7 @@ class Panel:
 
     @cached_property
     def _spans(self) -> dict[str, float]:
-        """From the lowest to the highest value of each signal."""
+        """The range of each signal."""
         addresses = [signal.address for signal in self.signals]
         return {address: float(np.ptp(self._kept(self.trajectory[address]))) for address in addresses}
 
@@ -121,7 +121,7 @@ class Panel:
         return _Page(begin, end, images[0], images[1], boxes[0].x0, boxes[0].x1, spans)
 
     def _axes(self, figure: Figure, begin: float, end: float) -> list[Axes]:
-        """One scope below the other, named above its left end."""
+        """One plot below the other, with the name above its left end."""
         font = 9.5 * self.scale
         grid = figure.subplots(len(self.signals), 1, sharex=True, squeeze=False)
         line, em = font * _DPI / 72 / self.height, font * _DPI / 72 / self.width
@@ -148,7 +148,7 @@ class Panel:
         return list(grid[:, 0])
 
     def _gap(self, line: float) -> float:
-        """Between two scopes, in heights of one: room for a title."""
+        """The space between two plots for a title, relative to the height of one."""
         count = len(self.signals)
         return (2.3 * line * count) / max(0.05, 1 - 6.2 * line - 2.3 * line * (count - 1))
 
@@ -164,7 +164,7 @@ class Panel:
 
 
 def _is_phase(values: NDArray[np.float64], signal: Signal) -> bool:
-    """Whether a signal tells one of a few cases: a state with levels, or 0 and 1 only."""
+    """Whether a signal has a few values only: a state with levels, or 0 and 1."""
     return bool(signal.levels) or (signal.unit == "1" and bool(np.all((values == 0) | (values == 1))))
 
 
@@ -177,7 +177,7 @@ def _limits(values: NDArray[np.float64], signal: Signal) -> tuple[float, float]:
 
 
 def _shown(signal: Signal, value: float, span: float) -> str:
-    """A number with as many decimals as its scope can tell apart, and its unit; or a level's name."""
+    """A number with its unit and as many decimals as its plot resolves; or the name of a level."""
     if signal.levels:
         return signal.levels[int(value)]
     decimals = min(6, max(0, 2 - math.floor(math.log10(span)))) if span > 0 else 3

@@ -1,4 +1,4 @@
-"""Time of a motion that is played in a loop: pause, single steps, speed."""
+"""The time of a motion that is played in a loop, with pause, single steps and speed."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _SLOWEST, _FASTEST = 1 / 256, 16.0
 
 @dataclass
 class Player:
-    """Where a motion from `begin` to `end` is; times in s of motion, speed in s of motion per s."""
+    """The position in a motion from `begin` to `end`. Times are in s of motion, the speed in s of motion per s."""
 
     begin: float
     end: float
@@ -24,12 +24,12 @@ class Player:
         self.time = self.begin
 
     def advance(self, seconds: float) -> None:
-        """Let seconds of the viewer's time pass."""
+        """Advance by a time of the viewer in s."""
         if not self.paused:
             self._move(seconds * self.speed)
 
     def press(self, key: int) -> None:
-        """Space pauses; left and right step; up and down double and halve the speed; home starts anew."""
+        """Handle a key: space pauses, left and right step, up and down double and halve the speed, home restarts."""
         if key == SPACE:
             self.paused = not self.paused
         elif key in (LEFT, RIGHT):

@@ -1,4 +1,4 @@
-"""The posture at each recorded instant: signals written into MuJoCo's coordinates; nothing is simulated."""
+"""The posture at each recorded instant. Signals are written into MuJoCo's coordinates; nothing is simulated."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ Floats = NDArray[np.float64]
 
 
 class Posture:
-    """MuJoCo's data of a stage, at one recorded instant after the other."""
+    """MuJoCo's data of a stage at a recorded instant."""
 
     def __init__(self, stage: Stage, trajectory: Trajectory) -> None:
         """Tie every joint coordinate to a recorded signal.
@@ -35,7 +35,7 @@ class Posture:
         self.take(0)
 
     def take(self, row: int) -> None:
-        """Take the posture of a recorded instant."""
+        """Set the posture of a recorded instant."""
         self.row = row
         self.data.qpos[self._places] = self.trajectory.values[row, self._columns]
         self.data.time = self.trajectory.times[row]
@@ -45,11 +45,11 @@ class Posture:
         mujoco.mj_tendon(self.stage.mechanics, self.data)
 
     def signal(self, address: str | None) -> float:
-        """A signal at this instant; 0 for none."""
+        """The value of a signal at this instant; 0 for none."""
         return 0.0 if address is None else float(self.trajectory.values[self.row, self._column[address]])
 
     def place(self, spot: Spot) -> Floats:
-        """Where a spot is in the world, in m."""
+        """The position of a spot in the world, in m."""
         turn = self.data.xmat[spot.body].reshape(3, 3)
         found = self.data.xpos[spot.body] + turn @ np.array(spot.position)
         for axis, way in ((0, spot.forward), (2, spot.up)):
@@ -58,19 +58,19 @@ class Posture:
         return np.asarray(found)
 
     def force(self, force: Force) -> Floats:
-        """A force in N, in the world."""
+        """A force in the world, in N."""
         forward, left, up = (np.array(axis) for axis in force.axes)
         found = self.signal(force.forward) * forward + self.signal(force.up) * up
         return np.asarray(found + self.signal(force.left) * left)
 
     @property
     def center_of_mass(self) -> Floats:
-        """Of all that moves, in m."""
+        """The center of mass of the model, in m."""
         return np.array(self.data.subtree_com[0])
 
     @property
     def extent(self) -> tuple[Floats, Floats]:
-        """The lowest and the highest corner of all that is seen but the ground, in m."""
+        """The lowest and the highest corner of everything visible except the ground, in m."""
         mechanics = self.stage.mechanics
         seen = np.flatnonzero(mechanics.geom_bodyid > 0)
         low, high = [], []

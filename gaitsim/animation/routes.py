@@ -1,8 +1,8 @@
-"""Where a path that is only moment arms is drawn: as a tendon beside the hinges that it turns.
+"""Where to draw a path that is declared by moment arms: as a tendon beside the hinges that it turns.
 
-A line that pulls a body towards the one that carries it makes the hinge's coordinate grow if it passes
-at arm * (u x a) from the hinge: a is the hinge's axis, u points from it along the carrying body. How far
-a path reaches along its bodies is a look; nothing follows from it.
+A line that pulls a body towards the one that carries it increases the hinge's coordinate if it passes at arm * (u x a)
+from the hinge, where a is the axis of the hinge and u points from it along the carrying body. How far a path extends
+along its bodies is only a matter of appearance.
 """
 
 from __future__ import annotations
@@ -30,13 +30,13 @@ _UNSEEN = (0, 0, 0, 0)
 
 @dataclass(frozen=True)
 class _Hinge:
-    """A hinge in the neutral posture, in the world, and how a path passes it.
+    """A hinge in the neutral posture, and how a path passes it. Lengths are in m, in the world.
 
     Attributes:
-        upwards, onwards: Unit vectors along the carrying and the carried body, zero without a way.
-        reach: To the carrying body's center.
-        beside: From the axis to the path.
-        outside: Along the axis. In m.
+        upwards, onwards: Unit vectors along the carrying and the carried body; zero without a direction.
+        reach: The distance to the center of the carrying body.
+        beside: The distance of the path from the axis.
+        outside: The offset along the axis.
     """
 
     carrier: int
@@ -52,7 +52,7 @@ class _Hinge:
 
     @property
     def drawable(self) -> bool:
-        """Whether it joins two bodies that a path can run along."""
+        """Whether it joins two bodies along which a path can run."""
         return self.carrier != 0 and bool(self.upwards.any() and self.onwards.any())
 
     @property
@@ -62,22 +62,33 @@ class _Hinge:
 
     @property
     def insertion(self) -> Vector:
-        """On the carried body's line: beside the hinge if the body goes that way, as a foot does, or else onwards."""
+        """The end on the carried body: beside the hinge if the body points that way, as a foot does, else further
+        along the body.
+        """
         along = float(self.beside @ self.onwards)
         off = float(np.linalg.norm(self.beside - along * self.onwards))
         return self.anchor + self.outside + (along + _BEYOND * off) * self.onwards
 
 
 class Drawer:
-    """Adds tendons to a model that is only looked at."""
+    """Adds tendons to the model of a film."""
 
     def __init__(self, spec: Any, mechanics: Any) -> None:
-        """The model to draw into, and how it was compiled before."""
+        """Prepare drawing.
+
+        Args:
+            spec: The model to draw into.
+            before: How it was compiled before.
+        """
         self.spec, self.mechanics, self.data = spec, mechanics, mujoco.MjData(mechanics)
         mujoco.mj_kinematics(mechanics, self.data)
 
     def draw(self, path: ArmPath) -> bool:
-        """Draw a path from the first body to the last; False if a hinge is on the ground, or no chain joins them."""
+        """Draw a path from the first body to the last.
+
+        Returns:
+            Whether it was drawn; not if a hinge is on the ground, or if no chain joins the bodies.
+        """
         hinges = sorted((self._hinge(arm, path.mirrored) for arm in path.arms), key=lambda hinge: hinge.carried)
         chained = all(upper.carried == lower.carrier for upper, lower in pairwise(hinges))
         if not (chained and all(hinge.drawable for hinge in hinges)):
@@ -107,7 +118,7 @@ class Drawer:
         tendon.wrap_site(f"{tendon.name}.{name}")
 
     def _bend(self, tendon: Any, name: str, hinge: _Hinge) -> None:
-        """Let the path bend round the hinge at its arm."""
+        """Let the path wrap around the hinge at the moment arm."""
         turn = np.zeros(4)
         mujoco.mju_quatZ2Vec(turn, self._turned(hinge.carrier, hinge.axis))
         name, side = f"{tendon.name}.{name}", f"{tendon.name}.{name}.side"
@@ -130,23 +141,23 @@ class Drawer:
         return self.spec.body(self.mechanics.body(number).name)
 
     def _within(self, body: int, place: Vector) -> Vector:
-        """A place of the world in a body's own frame."""
+        """A point of the world in a body's frame."""
         return self._turned(body, place - self.data.xpos[body])
 
     def _turned(self, body: int, way: Vector) -> Vector:
-        """A direction of the world in a body's own frame."""
+        """A direction of the world in a body's frame."""
         return np.asarray(self.data.xmat[body].reshape(3, 3).T @ way)
 
 
 def _origin(hinge: _Hinge, insertion: Vector, length: float) -> Vector:
-    """So far up that the path is about as long as the muscle, as long as the body reaches so far."""
+    """The upper end of the path: about the length of the muscle above the hinge, limited by the length of the body."""
     below = float(np.linalg.norm(insertion - hinge.anchor))
     up = max(_LEAST * hinge.arm, min(hinge.reach, length - below))
     return hinge.anchor + hinge.outside + up * hinge.upwards + _BESIDE * hinge.beside
 
 
 def _across(way: Vector, axis: Vector) -> tuple[Vector, float]:
-    """The part of a way that is perpendicular to an axis: its direction, or zeros if there is none, and its length."""
+    """The component of a vector perpendicular to an axis: its direction, or zeros, and its length."""
     across = way - (way @ axis) * axis
     length = float(np.linalg.norm(across))
     return (across / length, length) if length > _NOTHING else (np.zeros(3), 0.0)

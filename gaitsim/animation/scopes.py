@@ -1,4 +1,4 @@
-"""Which signals are shown beside the picture."""
+"""The signals that are shown beside the picture."""
 
 from __future__ import annotations
 
@@ -16,17 +16,15 @@ _FORCES = 2
 
 
 def chosen(model: Model, patterns: Sequence[str]) -> list[Signal]:
-    """The signals of addresses and patterns, in their order, each once.
-
-    Raises:
-        NoSuchSignal: No run has such a signal.
-    """
+    """The signals of addresses and patterns in their order, without repetition."""
     found = [signal for pattern in patterns for signal in matching(model, pattern)]
     return list({signal.address: signal for signal in found}.values())
 
 
 def usual(model: Model, stage: Stage) -> list[Signal]:
-    """A muscle's activation and force, forces of the ground, phases of controllers, the height, and a command."""
+    """The default signals: activation and force of a muscle, ground forces, phases of controllers, height, and a
+    command.
+    """
     known = {signal.address: signal for signal in recorded_signals(model)}
     muscle = next((part.address for part in model.parts if part.type.kind == "muscle"), None)
     wanted = [f"{muscle}.activation", f"{muscle}.force"] if muscle else []
@@ -40,7 +38,7 @@ def usual(model: Model, stage: Stage) -> list[Signal]:
 
 
 def _coordinates(stage: Stage) -> list[str]:
-    """The height that a joint gives, or else the first coordinate."""
+    """The height of a joint, or else the first coordinate."""
     mechanics = stage.mechanics
     vertical = [
         int(mechanics.jnt_qposadr[joint])

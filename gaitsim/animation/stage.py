@@ -1,4 +1,4 @@
-"""A model made to be looked at: the same bodies and joints, with light, ground and colours."""
+"""The model of a film: the same bodies and joints, with light, ground and colours."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ _TRACK = (-40.0, 0.9)  # m, from behind the camera to the far side of the ground
 
 @dataclass(frozen=True)
 class Spot:
-    """A place on a body, and the signals that move it: (signal, factor) forwards and upwards, in m."""
+    """A place on a body, and the signals that move it forwards and upwards: pairs (signal, factor), in m."""
 
     body: int
     position: tuple[float, float, float]
@@ -52,7 +52,7 @@ class Force:
     """A force on a spot: its signals in N forwards, upwards and to the left, and the part that it belongs to.
 
     Attributes:
-        axes: What is forwards, what is to the left and what is upwards there, in the world.
+        axes: The directions forwards, to the left and upwards there, in the world.
     """
 
     part: str
@@ -65,11 +65,11 @@ class Force:
 
 @dataclass(frozen=True)
 class Stage:
-    """MuJoCo's model for looking, and which signals it takes.
+    """MuJoCo's model of a film, and the signals that it shows.
 
     Attributes:
-        coordinates: Place in qpos and signal.
-        muscles: Tendon and the signal of its activation.
+        coordinates: Pairs of an index in qpos and a signal.
+        muscles: Pairs of a tendon and the signal of its activation.
     """
 
     mechanics: Any
@@ -80,7 +80,11 @@ class Stage:
 
 
 def stage_of(model: Model, wide: bool = False) -> Stage:
-    """The stage of a model at the values that it starts with; `wide`: with ground on both sides of the way.
+    """Make the stage of a model at its starts.
+
+    Args:
+        model: The model.
+        wide: Whether to show ground on both sides of the path.
 
     Raises:
         CannotAnimate: A joint's coordinate is in no output.
@@ -105,7 +109,7 @@ def stage_of(model: Model, wide: bool = False) -> Stage:
 
 
 def _coordinates(model: Model, assembly: Assembly, mechanics: Any) -> tuple[tuple[int, str], ...]:
-    """Which signal is which coordinate; all of them."""
+    """The signal of each coordinate."""
     found = {
         tie_place(mechanics, tie): f"{model.parts[i].address}.{tie.port}"
         for i, tie in assembly.reads
@@ -124,9 +128,9 @@ def _coordinates(model: Model, assembly: Assembly, mechanics: Any) -> tuple[tupl
 
 
 def _muscles(model: Model, assembly: Assembly) -> list[tuple[str, str]]:
-    """Tendons of muscles, and the signal that colours them: the path's owner has an activation.
+    """The tendons of muscles and the signals of their colours; the owner of the path has an activation.
 
-    Paths that are only moment arms get their tendons here.
+    Paths that are declared by moment arms get their tendons here.
     """
     outputs = {part.address: part.type.outputs for part in model.parts}
     found = []
@@ -164,7 +168,7 @@ def _drawings(model: Model, assembly: Assembly) -> tuple[list[Line], list[Force]
 
 
 def _axes(assembly: Assembly, surface: str) -> tuple[tuple[float, ...], ...]:
-    """Forwards, to the left and upwards on a surface of the world."""
+    """The directions forwards, to the left and upwards on a surface of the world."""
     turn = np.eye(3).ravel()
     if surface:
         mujoco.mju_quat2Mat(turn, assembly.model.site(surface).quat)
@@ -182,7 +186,7 @@ def _spot(
 
 
 def _paint_bodies(model: Model, spec: Any) -> None:
-    """Limbs like flesh with a bone inside, other shapes like bone; the left side darker."""
+    """Colour limbs like flesh with a bone inside, and other shapes like bone; the left side is darker."""
     mirrored = {part.address: part.mirrored for part in model.parts}
     for body in spec.bodies:
         for geom in list(body.geoms):
@@ -199,14 +203,14 @@ def _paint_bodies(model: Model, spec: Any) -> None:
 
 
 def _paint_tendons(spec: Any, muscles: set[str]) -> None:
-    """Paths of muscles are seen; tendons that only measure or close a loop are not."""
+    """Show the paths of muscles, and hide tendons that only measure or close a loop."""
     for tendon in spec.tendons:
         tendon.width = _TENDON
         tendon.rgba = (0, 0, 0, 1 if tendon.name in muscles else 0)
 
 
 def _furnish(spec: Any, ground: bool, wide: bool) -> None:
-    """Light, a plain background and, where something touches it, the ground as a track of tiles."""
+    """Add light, a plain background and, if something touches it, the ground as a tiled track."""
     # Near and far ends of what is seen, in m; MuJoCo counts them in sizes of the model, steps and all.
     spec.stat.extent, spec.visual.map.znear, spec.visual.map.zfar = 1.0, 0.05, 200.0
     spec.visual.headlight.ambient = (0.45, 0.45, 0.45)

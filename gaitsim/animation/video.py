@@ -1,4 +1,4 @@
-"""A video of a recorded run: the moving body, and scopes in step with it."""
+"""Videos of a recorded run: the moving body, and plots of signals."""
 
 from __future__ import annotations
 
@@ -33,15 +33,15 @@ _SWATCH = 100  # rows of pixels
 
 @dataclass(frozen=True)
 class VideoOptions:
-    """How a video is made.
+    """The options of a video.
 
     Attributes:
-        speed: Seconds of motion in a second of video.
-        rate: Frames in a second; a GIF's is rounded to what GIFs can have.
-        size: Width and height in pixels, made even.
-        scopes: Addresses or patterns of signals; none for the usual ones.
-        begin, end: Times of the motion, in s.
-        view: From where, a name of `VIEWS`.
+        speed: Seconds of motion per second of video.
+        rate: Frames per second; rounded for a GIF to what GIFs support.
+        size: Width and height in pixels; odd numbers are made even.
+        scopes: Addresses or patterns of signals; empty for the default ones.
+        begin, end: The part of the motion, in s.
+        view: The direction of the view, a name in `VIEWS`.
     """
 
     speed: float = 1.0
@@ -54,7 +54,13 @@ class VideoOptions:
 
 
 def record(replay: Replay, path: Path, options: VideoOptions | None = None, progress: Progress | None = None) -> Path:
-    """Write the video of a run, as MP4 or GIF by the path's ending; `progress` hears of frames done, and of how many.
+    """Write the video of a run.
+
+    Args:
+        replay: The run.
+        path: The file; its ending chooses MP4 or GIF.
+        options: The options.
+        progress: Receives the number of frames that are done, and of all frames.
 
     Raises:
         NoOpenGL: OpenGL does not work here.
@@ -75,7 +81,7 @@ def record(replay: Replay, path: Path, options: VideoOptions | None = None, prog
 
 
 class _Film:
-    """Everything that the frames of one video have in common."""
+    """What all frames of one video share."""
 
     def __init__(self, replay: Replay, path: Path, options: VideoOptions) -> None:
         self.is_gif = path.suffix.lower() == ".gif"
@@ -105,33 +111,33 @@ class _Film:
 
     @property
     def picture_size(self) -> tuple[int, int]:
-        """Of the part of a frame that shows the body."""
+        """The size of the picture of the body in a frame."""
         width, height = self.size
         return (2 * round(_SHARE * width / 2), height) if self.beside else (width, 2 * round(height / 4))
 
     def frame(self, canvas: Canvas, number: int) -> Pixels:
-        """One whole frame: height x width x 3."""
+        """One whole frame: an array of height x width x 3."""
         row = int(self.rows[number])
         self.posture.take(row)
         picture = self.caption.put_on(canvas.picture(self.views, number), float(self.panel.trajectory.times[row]))
         return np.concatenate([picture, self.panel.picture(row)], axis=1 if self.beside else 0)
 
     def sample(self, canvas: Canvas) -> Pixels:
-        """Frames from all over the video, and all colours of activation: what its colours must show."""
+        """Frames from the whole video, and all colours of activation, for the palette of a GIF."""
         chosen = sorted({round(k) for k in np.linspace(0, len(self.rows) - 1, _SAMPLES)})
         swatch = np.tile(colours.scale(self.size[0]), (_SWATCH, 1, 1))
         return np.concatenate([*(self.frame(canvas, k) for k in chosen), swatch])
 
 
 def _ending(replay: Replay, speed: float) -> tuple[str, float]:
-    """What the last second of the video says of a run that a measure stopped, and from when on."""
+    """The text at the end of the video about the measure that stopped the run, and the time from which it is shown."""
     if not (replay.outcome.level and replay.reaches_end):
         return "", 0.0
     return replay.outcome.level.replace("_", " "), float(replay.times[-1]) - speed
 
 
 def read_size(text: str) -> tuple[int, int]:
-    """Width and height of a text such as 1280x720.
+    """Read width and height from a text such as 1280x720.
 
     Raises:
         Usage: The request does not fit.
@@ -143,7 +149,7 @@ def read_size(text: str) -> tuple[int, int]:
 
 
 def _rate(options: VideoOptions, is_gif: bool) -> float:
-    """Frames in a second. A GIF shows each for a whole number of hundredths of a second, at least 2."""
+    """Frames per second. A GIF shows each frame for a whole number of hundredths of a second, at least 2."""
     rate = options.rate if options.rate is not None else (20.0 if is_gif else 30.0)
     return 100.0 / max(2, round(100.0 / rate)) if is_gif and rate > 0 else rate
 

@@ -1,4 +1,4 @@
-"""MuJoCo's own viewer, playing a recorded motion in a loop."""
+"""MuJoCo's viewer, which plays a recorded motion in a loop."""
 
 from __future__ import annotations
 
@@ -26,9 +26,14 @@ _KEYS = "space\nleft, right\nup, down\nhome", "pause\nstep\nfaster, slower\nfrom
 
 
 def view(replay: Replay, speed: float = 1.0, paused: bool = False) -> None:
-    """Show a run until the window is closed; `speed` in seconds of motion a second.
+    """Show a run until the window is closed.
 
     Call `check_display` before.
+
+    Args:
+        replay: The run.
+        speed: Seconds of motion per second.
+        paused: Whether to start paused.
 
     Raises:
         CannotAnimate: The model cannot be drawn.
@@ -59,7 +64,7 @@ def view(replay: Replay, speed: float = 1.0, paused: bool = False) -> None:
 
 
 def check_display(path: Path) -> None:
-    """Refuse to open a window where there is no display.
+    """Check that a window can be opened.
 
     Raises:
         NoDisplay: With the next move for the spec or result.
@@ -88,7 +93,7 @@ def _opens_windows() -> bool:
 
 
 class Show:
-    """What the viewer's window shows of a run at the player's time."""
+    """The content of the viewer's window at the time of the player."""
 
     def __init__(self, replay: Replay, speed: float, paused: bool) -> None:
         stage = stage_of(replay.model)
@@ -101,7 +106,7 @@ class Show:
         self._looked: Floats = self._views.points[0]
 
     def begin(self, window: Any) -> None:
-        """Point the camera; afterwards the mouse may turn it."""
+        """Point the camera. The user may turn it afterwards."""
         camera = self._views.camera(0)
         window.cam.azimuth, window.cam.elevation = camera.azimuth, camera.elevation
         window.cam.distance, window.cam.lookat[:] = camera.distance, camera.lookat
@@ -109,7 +114,7 @@ class Show:
         window.opt.sitegroup[:] = 0
 
     def frame(self, window: Any) -> None:
-        """Take the posture of the player's time, with its colours and arrows; the window must be locked."""
+        """Show the posture, colours and arrows at the time of the player. The window must be locked."""
         row = int(rows_at(self.posture.trajectory, [self.player.time])[0])
         self.posture.take(row)
         overlay.paint_muscles(self.posture)
@@ -120,7 +125,7 @@ class Show:
         self._looked = looked
 
     def words(self) -> list[tuple[Any, Any, str, str]]:
-        """What is written in the window."""
+        """The texts in the window."""
         paused = "paused" if self.player.paused else ""
         told = f"{self.player.time:.3f} s\n{self.player.speed:g} x real time\n{paused}"
         top, bottom = mujoco.mjtGridPos.mjGRID_TOPLEFT, mujoco.mjtGridPos.mjGRID_BOTTOMLEFT

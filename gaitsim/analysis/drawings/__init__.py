@@ -1,1 +1,1 @@
-"""How figures and tables look, and the files that they become."""
+"""The style of figures and tables, and the files that they are written to."""

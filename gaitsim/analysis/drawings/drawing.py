@@ -1,4 +1,4 @@
-"""A picture with its words: figure, file name, title, caption."""
+"""A figure with its file name, title and caption."""
 
 from __future__ import annotations
 
@@ -20,8 +20,10 @@ class Drawing:
     """One figure.
 
     Attributes:
-        name: Of its file, without ending.
-        caption: What is seen, with its units, as one paragraph.
+        name: The name of its file, without ending.
+        title: Its title.
+        caption: What it shows, with units, as one paragraph.
+        figure: The figure of matplotlib.
     """
 
     name: str
@@ -35,7 +37,15 @@ Figures = Callable[["Replay"], list[Drawing]]
 
 
 def save(drawings: Iterable[Drawing], folder: Path, formats: Sequence[str] = ("png",)) -> list[Path]:
-    """Write each drawing as files of the formats (png, svg, pdf); their paths.
+    """Write drawings to files.
+
+    Args:
+        drawings: The drawings.
+        folder: The folder of the files.
+        formats: png, svg, pdf.
+
+    Returns:
+        The paths of the files.
 
     Raises:
         OSError: The file cannot be read or written.

@@ -1,4 +1,4 @@
-"""One look for all figures, and how axes are called."""
+"""The common style of all figures, and the names of axes."""
 
 from __future__ import annotations
 
@@ -20,10 +20,16 @@ _MEANT = {"N m": "moment", "J": "energy"}  # one dimension, two quantities
 
 
 def panels(rows: int = 1, columns: int = 1, height: float = 2.2, share: bool = False) -> tuple[Figure, list[Axes]]:
-    """A figure as wide as a column and its panels, row by row; `height` of one in inches.
+    """Make a figure with panels. It needs no display.
 
     Args:
-        share: The panels of a column have one horizontal axis, named at the lowest. Needs no display.
+        rows: The number of rows.
+        columns: The number of columns.
+        height: The height of one panel, in inches.
+        share: Whether the panels of a column share one horizontal axis, labelled at the lowest panel.
+
+    Returns:
+        The figure and its axes, row by row.
     """
     from cycler import cycler
     from matplotlib.figure import Figure
@@ -43,17 +49,17 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.2, share: bool = F
 
 
 def look(number: int) -> dict[str, Any]:
-    """Colour and stroke of the n-th line, from 0; 28 of them differ."""
+    """Colour and line style of the n-th line, from 0. The first 28 are different."""
     return {"color": PALETTE[number % len(PALETTE)], "linestyle": LINES[number // len(PALETTE) % len(LINES)]}
 
 
 def legend(axes: Axes, **options: Any) -> None:
-    """A legend in the common look, where it hides least."""
+    """Add a legend in the common style, where it covers least."""
     axes.legend(**({"fontsize": FONT - 1, "framealpha": 0.85, "loc": "best"} | options))
 
 
 def above(axes: Axes) -> None:
-    """A legend above a panel, where it hides nothing, in as many columns as its longest word allows."""
+    """Add a legend above a panel, where it covers nothing, with as many columns as its longest label allows."""
     handles, labels = axes.get_legend_handles_labels()
     longest = max((len(label) for label in labels), default=1)
     columns = max(1, min(len(handles), _LEGEND_LETTERS // (longest + 6)))
@@ -61,19 +67,19 @@ def above(axes: Axes) -> None:
 
 
 def whole_numbers(axes: Axes) -> None:
-    """Ticks of the horizontal axis at whole numbers only."""
+    """Put the ticks of the horizontal axis at integers only."""
     from matplotlib.ticker import MaxNLocator
 
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
 
 
 def labelled(name: str, unit: str) -> str:
-    """What an axis is called: a name and its unit, a dash for a plain number."""
+    """The label of an axis: a name and its unit; a dash for a plain number."""
     return f"{name} ({shown_unit(unit)})"
 
 
 def quantity(unit: str) -> str:
-    """What a unit measures, in words: force, angle; a plain number is a value."""
+    """The quantity that a unit measures, such as force or angle; "value" for a plain number."""
     from gaitsim.units import parse_unit
 
     if unit in _MEANT:
@@ -84,7 +90,7 @@ def quantity(unit: str) -> str:
 
 
 def shown_unit(unit: str) -> str:
-    """A unit as it is read: N m/rad becomes N·m/rad, m/s^2 becomes m/s²."""
+    """A unit for reading: N m/rad becomes N·m/rad, m/s^2 becomes m/s²."""
     if unit in ("", "1"):
         return "–"
     raised = {"^2": "²", "^3": "³", "^-1": "⁻¹", "^-2": "⁻²"}

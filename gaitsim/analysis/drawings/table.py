@@ -1,4 +1,4 @@
-"""Tables of texts, and how numbers stand in them."""
+"""Tables of texts, and the format of numbers in them."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Table:
-    """Cells as text; numeric columns are set flush right."""
+    """Cells as text. Numeric columns are aligned to the right."""
 
     columns: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
@@ -16,7 +16,7 @@ class Table:
 
 
 def shown(number: float | None, digits: int = 5) -> str:
-    """A number as a table has it; a dash for none."""
+    """A number as text for a table; a dash for nan."""
     if number is None or not math.isfinite(number):
         return "–"
     return f"{number:.{digits}g}".replace("-", "\N{MINUS SIGN}")

@@ -1,1 +1,1 @@
-"""Figures and numbers of a walk: legs, footsteps, joints, and what people do."""
+"""Figures and numbers of gait: legs, footsteps, joints, and comparison with people."""

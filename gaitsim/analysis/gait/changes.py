@@ -1,4 +1,4 @@
-"""What differs between the gaits of several walkers: each quantity of each run beside that of the first."""
+"""Differences between the gaits of several walkers: each quantity of each run beside that of the first run."""
 
 from __future__ import annotations
 
@@ -20,15 +20,16 @@ _ROUNDING = 9  # decimals; less is rounding
 
 
 def gait_changes(replays: Sequence[Replay]) -> dict[str, dict[str, Any]]:
-    """The gaits of several runs beside each other.
+    """The gaits of several runs as data.
 
     Args:
         replays: Any number of runs; those that do not walk on two legs have no values.
 
     Returns:
-        For each quantity its unit, and `values` by label of the run: means over the strides of both legs. Of each
-        curve that people have too: its value at touchdown, and its highest and lowest over the cycle. Nothing
-        unless two of the runs walk.
+        For each quantity its unit, and `values` by label of the run: means over the strides of both legs. Curves with
+            recorded
+        data of people have their value at touchdown, and their maximum and minimum over the cycle. Empty unless two of
+            the runs walk.
     """
     found: dict[str, dict[str, Any]] = {}
     walkers = [replay for replay in replays if two_legs(replay) is not None]
@@ -53,7 +54,9 @@ def _quantities(replay: Replay) -> Iterator[tuple[str, str, float | None]]:
 
 
 def changes_table(replays: Sequence[Replay]) -> Table | None:
-    """The gaits of several runs as a table: the first run's values, then each other's with the change in brackets."""
+    """The gaits of several runs as a table: the values of the first run, and those of the others with the change in
+    brackets.
+    """
     found = gait_changes(replays)
     labels = list(dict.fromkeys(label for row in found.values() for label in row["values"]))
     if not labels:

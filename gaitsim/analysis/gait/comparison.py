@@ -1,4 +1,4 @@
-"""Which signals of a walker people have too, and how they compare."""
+"""Comparison of a walker's signals with recorded curves of people."""
 
 from __future__ import annotations
 
@@ -32,10 +32,12 @@ _MOMENT_OF = {
 
 @dataclass(frozen=True)
 class Followed:
-    """A signal that a measure of the model compares with a recorded curve, on either side.
+    """A signal that a measure of the model compares with a recorded curve, for both sides.
 
     Attributes:
-        signal: Address of the signal on one side. What the curve counts is direction (signal - zero), in SI.
+        norm: The recorded curve.
+        signal: The address of the signal on one side.
+        zero, direction: The curve is compared with direction * (signal - zero), in SI.
     """
 
     norm: Norm
@@ -45,11 +47,11 @@ class Followed:
 
     @property
     def name(self) -> str:
-        """Of the curve, in words: hip flexion."""
+        """The name of the curve in words, such as hip flexion."""
         return self.norm.name.rpartition(".")[2].replace("_", " ")
 
     def on(self, replay: Replay, side: str) -> Floats | None:
-        """The signal of a side as the curve counts it; None if the side has none."""
+        """The signal of a side in the convention of the curve; None if the side does not have it."""
         address = on_side(self.signal, side)
         if address not in replay.trajectory.signals:
             return None
@@ -58,7 +60,7 @@ class Followed:
 
 @dataclass(frozen=True)
 class Matched:
-    """One quantity of both legs over the gait cycle, beside people's.
+    """One quantity of both legs over the gait cycle, with that of people.
 
     Attributes:
         cycles: By side.
@@ -69,18 +71,18 @@ class Matched:
     cycles: dict[str, Cycle]
 
     def comparison(self, side: str) -> Comparison:
-        """The mean stride of a side with people's mean."""
+        """The mean stride of a side compared with people's mean."""
         return compared(self.cycles[side].mean, self.norm)
 
 
 def library_of(replay: Replay) -> Library:
-    """Tables and components as the run had them, then those of this machine."""
+    """The library with the tables and components of the run, then those of this machine."""
     own = [replay.folder / COMPONENTS] if replay.folder else []
     return Library((*own, *library_folders(None if replay.folder else replay.path)))
 
 
 def followed(replay: Replay) -> list[Followed]:
-    """What the gait_curve measures of a model follow, each once for both sides."""
+    """The signals that the gait_curve measures of a model follow, each once for both sides."""
     model, library = replay.model, library_of(replay)
     found: dict[tuple[str, str], Followed] = {}
     for part in model.parts:
@@ -97,12 +99,12 @@ def followed(replay: Replay) -> list[Followed]:
 
 
 def runs(replay: Replay) -> bool:
-    """Whether a model is compared with runners, so that nothing that is known of walkers stands beside it."""
+    """Whether a model is compared with runners, so that data of walking does not apply."""
     return any(one.norm.name.startswith(RUNNING) for one in followed(replay))
 
 
 def _norm(model: Model, part: Part, signal: str, library: Library) -> Norm:
-    """The recorded curve of a measure, with its deviation if its table is at hand."""
+    """The recorded curve of a measure, with its deviation if the table is available."""
     recording = part.series["curve"]
     table, _, column = recording.column.rpartition(".")
     try:
@@ -127,9 +129,11 @@ def matched_signals(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
 
 
 def matched_moments(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
-    """Joint moments over body mass of the joints whose angles are followed, with the sense of people's table.
+    """Joint moments divided by body mass, for joints with followed angles, in the sign convention of the table of
+    people.
 
-    None for a runner: the table is of walking.
+    Returns:
+        The moments; empty for a runner, because the table is of walking.
     """
     library, found = library_of(replay), []
     if runs(replay):
@@ -149,9 +153,10 @@ def matched_moments(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
 
 
 def norm_numbers(replay: Replay) -> dict[str, dict[str, dict[str, Any]]]:
-    """How a walker compares with people: by curve, by leg (left, right); none for what does not walk on two legs.
+    """The comparison of a walker with people, by curve and by leg (left, right); empty unless it walks on two legs.
 
-    Angles in the unit of the curve, shares of the cycle in %. Differences are the model's minus people's.
+    Angles are in the unit of the curve, shares of the cycle in %. Differences are those of the model minus those of
+    people.
     """
     legs = two_legs(replay)
     if legs is None:
@@ -182,5 +187,5 @@ def _numbers(one: Matched, side: str, count: int) -> dict[str, Any]:
 
 
 def later(place: float, norm_place: float) -> float:
-    """By how much of the cycle in % a place from 0 to 1 is later, the shorter way round: -50 to 50."""
+    """By how much of the cycle in % one position (0 to 1) is later than another, the shorter way: -50 to 50."""
     return 100 * ((place - norm_place + 0.5) % 1.0 - 0.5)

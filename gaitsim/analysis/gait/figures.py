@@ -1,4 +1,4 @@
-"""Figures of a walker on two legs: everything over the gait cycle, beside people; steps; symmetry."""
+"""Figures of a walker on two legs: curves over the gait cycle beside people, steps, and symmetry."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ _IN_TABLE = "How they compare in numbers is in the table Compared with people."
 
 
 def gait_figures(replay: Replay) -> list[Drawing]:
-    """Angles, ground forces, moments and powers, activations, steps, margin to falling, symmetry."""
+    """Angles, ground forces, moments and powers, activations, steps, margin of stability, and symmetry."""
     legs = two_legs(replay)
     if legs is None:
         return []
@@ -49,7 +49,7 @@ def gait_figures(replay: Replay) -> list[Drawing]:
 
 
 def lacking_gait(replay: Replay) -> list[str]:
-    """Which figures a walker lacks that others have, and why; words for its reader."""
+    """The figures that a walker lacks, with the reasons, for the reader."""
     if not has_two_legs(replay.model):
         return []
     if two_legs(replay) is None:
@@ -152,7 +152,11 @@ def _moments(replay: Replay, legs: Legs) -> list[Drawing]:
 
 
 def _draw_power(panel: Axes, replay: Replay, legs: Legs, joint: Followed) -> str:
-    """A joint's power in W/kg, and in words what it gives and takes in a stride."""
+    """Draw the power of a joint in W/kg.
+
+    Returns:
+        The positive and negative work of a stride, in words.
+    """
     words = []
     for leg in legs:
         own = on_side(joint.signal, leg.side).rpartition(".")[0]
@@ -228,7 +232,7 @@ def _margin(replay: Replay, legs: Legs) -> list[Drawing]:
 
 
 def symmetry_pairs(replay: Replay, legs: Legs) -> dict[str, tuple[float, float]]:
-    """Left and right of what a gait is judged by, each in one unit."""
+    """Left and right values of the quantities of a gait, each in one unit."""
     found, both = steps(replay, legs), {leg.side: leg for leg in legs}
     pairs: dict[str, Mapping[str, float]] = {
         "step length": {s: float(np.mean([step.length for step in found if step.side == s])) for s in SIDES},

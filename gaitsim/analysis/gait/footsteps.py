@@ -1,4 +1,4 @@
-"""Steps of a walker one by one: length, cadence, stance and double support; margin to falling; symmetry."""
+"""The single steps of a walker: length, cadence, stance, double support, margin of stability, and symmetry."""
 
 from __future__ import annotations
 
@@ -19,10 +19,13 @@ _FLAT = "terrain/flat"
 
 @dataclass(frozen=True)
 class Step:
-    """From the touchdown of the other foot to that of this one.
+    """A step: from the touchdown of the other foot to that of this one.
 
     Attributes:
-        at: Of the latter, in s; length in m.
+        side: The side of this foot.
+        at: The time of this touchdown, in s.
+        length: In m.
+        duration: In s.
     """
 
     side: str
@@ -32,15 +35,15 @@ class Step:
 
     @property
     def cadence(self) -> float:
-        """Steps a minute if all were like this one."""
+        """Steps per minute, if all were like this one."""
         return 60 / self.duration
 
 
 def steps(replay: Replay, legs: Sequence[Leg]) -> list[Step]:
-    """The steps between touchdowns of alternate feet; a foot that lands twice in a row makes none.
+    """The steps between touchdowns of alternate feet. A foot that lands twice in a row makes no step.
 
-    The length is the distance of the two footprints: where the landing part of the foot, such as the
-    heel, touched down, and where the same part of the other foot had.
+    The length is the distance between two footprints: where the landing part of the foot, such as the heel, touched
+    down, and where the same part of the other foot had touched down before.
     """
     found = []
     for (before, other), (at, leg) in pairwise(_landings(legs)):
@@ -58,7 +61,7 @@ def _landings(legs: Sequence[Leg]) -> list[tuple[float, Leg]]:
 
 
 def _landing_contact(replay: Replay, leg: Leg, at: float) -> str:
-    """Of the contacts of a leg, the one that is loaded most at its touchdown."""
+    """The contact of a leg that is loaded most at its touchdown."""
     index = int(np.searchsorted(replay.times, at))
     return max(leg.contacts, key=lambda contact: float(replay.trajectory[f"{contact}.load"][index]))
 
@@ -68,16 +71,19 @@ def _position(replay: Replay, contact: str, at: float) -> float:
 
 
 def double_support(leg: Leg, other: Leg) -> Floats:
-    """Share of each stride of a leg in which both legs stand."""
+    """The share of each stride of a leg in which both legs are in stance."""
     return leg.share(leg.standing * other.standing)
 
 
 def margin(replay: Replay, legs: Sequence[Leg]) -> Floats | None:
-    """By how far in m the foremost contact that stands is ahead of the extrapolated center of mass.
+    """The margin of stability: the distance in m of the foremost standing contact ahead of the extrapolated center
+    of mass.
 
-    x + v / sqrt(g / l) with l, the mean height of the center of mass (Hof and others 2005). Below 0, a step
-    is needed not to fall forwards. Nan in flight; None unless the model has a sensor/center_of_mass and
-    its ground is flat.
+    The latter is x + v / sqrt(g / l), where l is the mean height of the center of mass (Hof and others 2005). Below 0,
+    a step is needed to prevent a fall forwards.
+
+    Returns:
+        A value for each instant, nan in flight; None without a sensor/center_of_mass or with ground that is not flat.
     """
     sensor = _center(replay.model)
     if sensor is None or not _flat(replay.model):
@@ -92,7 +98,7 @@ def margin(replay: Replay, legs: Sequence[Leg]) -> Floats | None:
 
 
 def lacks_center(model: Model) -> bool:
-    """Whether a margin to falling is missing only for want of a sensor/center_of_mass."""
+    """Whether the margin of stability is missing only because there is no sensor/center_of_mass."""
     return _center(model) is None and _flat(model)
 
 
@@ -105,11 +111,11 @@ def _flat(model: Model) -> bool:
 
 
 def symmetry_index(left: float, right: float) -> float:
-    """By how much the right side is more than the left, in % of their mean size; nan if both are 0."""
+    """The right side minus the left one, in % of the mean of their magnitudes; nan if both are 0."""
     size = (abs(left) + abs(right)) / 2
     return 100 * (right - left) / size if size > 0 else float("nan")
 
 
 def symmetry(pairs: Mapping[str, tuple[float, float]]) -> dict[str, float]:
-    """Symmetry index of each named pair of left and right."""
+    """The symmetry index of each named pair of left and right values."""
     return {name: symmetry_index(*pair) for name, pair in pairs.items()}

@@ -1,4 +1,4 @@
-"""What a walker in space does out of the sagittal plane, over the gait cycle: pelvis, hip, medial force."""
+"""Motion of a walker in space out of the sagittal plane, over the gait cycle: pelvis, hip, medial force."""
 
 from __future__ import annotations
 
@@ -20,7 +20,9 @@ _HINGE = "joint/spatial_hinge"
 
 
 def frontal_figures(replay: Replay, legs: Sequence[Leg]) -> list[Drawing]:
-    """Obliquity and rotation of the pelvis, adduction and rotation of the hip, medial force; none in the plane."""
+    """Obliquity and rotation of the pelvis, adduction and rotation of the hip, and medial force; none for a model in
+    the plane.
+    """
     found = {name: curves for name, curves in _curves(replay, legs).items() if len(curves) == len(legs)}
     if not found:
         return []
@@ -70,7 +72,7 @@ def _curves(replay: Replay, legs: Sequence[Leg]) -> dict[str, dict[str, Floats]]
 
 
 def _pelvis(model: Model, side: str) -> str:
-    """The sensor of a leg that tells how a segment of no side is turned; empty if there is none."""
+    """The sensor of the orientation of a segment without a side; empty if there is none."""
     sensors = _of_type(model, _ORIENTATION, side)
     return next((part.address for part in sensors if not side_of(part.attachments["frame"])), "")
 

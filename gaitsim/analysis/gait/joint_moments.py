@@ -1,4 +1,4 @@
-"""Net moments at joints, and their powers, from what was recorded."""
+"""Net joint moments and joint powers, from recorded signals."""
 
 from __future__ import annotations
 
@@ -14,9 +14,12 @@ STOPS = ("stop_moment", "stop")
 
 
 def joint_moment(replay: Replay, joint: str) -> Floats | None:
-    """Moment in N m that makes a joint's angle grow: of muscles and others who send one, stops, and damping.
+    """The net moment in N m about a joint, positive where it increases the angle: of muscles, other senders, stops,
+    and damping.
 
-    None if it is no hinge, or if muscles of its side pull by tendons whose moments are not recorded.
+    Returns:
+        A value for each instant; None if the joint is not a hinge, or if muscles of its side act through tendons whose
+        moments are not recorded.
     """
     part = _joint(replay.model, joint)
     if part is None or hidden_paths(replay.model, side_of(joint)):
@@ -31,13 +34,13 @@ def joint_moment(replay: Replay, joint: str) -> Floats | None:
 
 
 def joint_power(replay: Replay, joint: str) -> Floats | None:
-    """Power in W that a joint's moment gives to the segments; positive if it speeds them up."""
+    """The power in W of a joint's moment. It is positive where it accelerates the segments; None if the moment is."""
     moment, part = joint_moment(replay, joint), _joint(replay.model, joint)
     return None if moment is None or part is None else moment * _velocity(replay, part)
 
 
 def joint_work(replay: Replay, leg: Leg, joint: str) -> tuple[Floats, Floats] | None:
-    """Work in J that a joint gives, and that it takes, below 0, in each stride of a leg; None as its power."""
+    """The positive and the negative work of a joint in J, in each stride of a leg; None if the power is."""
     power = joint_power(replay, joint)
     if power is None:
         return None
@@ -45,14 +48,14 @@ def joint_work(replay: Replay, leg: Leg, joint: str) -> tuple[Floats, Floats] | 
 
 
 def hidden_paths(model: Model, side: str) -> list[str]:
-    """Paths of a side that tell no moment: MuJoCo's own tendons pull the bodies."""
+    """The paths of a side that report no moment, because MuJoCo's tendons pull the bodies."""
     paths = [p for p in model.parts if p.type.kind == "path" and side_of(p.address) == side]
     told = [p.address for p in paths if any(parse_unit(output.unit).si == "N m" for output in p.type.outputs.values())]
     return [p.address for p in paths if not any(t == p.address or t.startswith(f"{p.address}.") for t in told)]
 
 
 def _joint(model: Model, address: str) -> Part | None:
-    """A hinge: a joint with one moment and one angular velocity, that slides nowhere."""
+    """A part with one moment and one angular velocity, and no sliding."""
     part = next((p for p in model.parts if p.address == address and p.type.kind == "joint"), None)
     if part is None or any(parse_unit(output.unit).si == "m" for output in part.type.outputs.values()):
         return None

@@ -1,7 +1,8 @@
-"""What healthy adults do at their natural speed where no curve is shipped: peaks of forces and powers, muscles' times.
+"""Published values of healthy adults at their natural speed, for quantities without a shipped curve: peaks of forces
+and powers, and the timing of muscles.
 
-The peaks are ranges over two means: that of Bovi and others (2011) and that of Winter (1991, 19 subjects). A
-muscle is on where the mean of Bovi and others is above half of its range.
+Peaks are ranges over two means: those of Bovi and others (2011) and of Winter (1991, 19 subjects). A muscle counts as
+active where the mean of Bovi and others is above half of its range.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ ON_BY = "Bovi and others 2011"
 
 @dataclass(frozen=True)
 class Peak:
-    """An extreme of a curve over the gait cycle: value and place in %, each from the lower to the higher mean."""
+    """A peak of a curve over the gait cycle: value and position in %, each from the lower to the higher mean."""
 
     low: float
     high: float
@@ -60,7 +61,7 @@ ON: Mapping[str, Sequence[tuple[float, float]]] = {
 
 
 def draw_peaks(panel: Axes, peaks: Sequence[Peak]) -> None:
-    """A cross for each peak, as wide and as high as its range."""
+    """Draw a cross for each peak, as wide and as high as its range."""
     for peak in peaks:
         at, value = (peak.begin + peak.end) / 2, (peak.low + peak.high) / 2
         wide, high = (peak.end - peak.begin) / 2, (peak.high - peak.low) / 2
@@ -70,11 +71,11 @@ def draw_peaks(panel: Axes, peaks: Sequence[Peak]) -> None:
 
 
 def draw_on(panel: Axes, muscle: str) -> None:
-    """Bars along the upper edge where people's muscle is on."""
+    """Draw bars along the upper edge where the muscle of people is active."""
     for begin, end in ON.get(muscle, ()):
         panel.axvspan(begin, end, 0.93, 1, color=PEOPLE, linewidth=0)
 
 
 def name_peaks(panel: Axes) -> None:
-    """What the crosses are, in the legend."""
+    """Explain the crosses in the legend."""
     panel.plot([], [], "o", color=PEOPLE, markersize=4, label="people")

@@ -1,4 +1,4 @@
-"""The two legs of a walker: loads on them, when they stand, and their strides."""
+"""The two legs of a walker: loads, stance, and strides."""
 
 from __future__ import annotations
 
@@ -26,12 +26,12 @@ class Leg:
     """One leg during a run.
 
     Attributes:
-        side: L or r.
-        contacts: Addresses.
-        weight: Of all that moves, in N.
-        load, shear: Force of the ground along its normal and forwards along it, in body weights.
-        standing: 1 in stance.
-        touchdowns: In s, those that begin or end a stride that counts.
+        side: l or r.
+        contacts: The addresses of its contacts.
+        weight: The weight of the whole model, in N.
+        load, shear: The ground force along the normal and forwards along the ground, in body weights.
+        standing: 1 in stance, else 0.
+        touchdowns: The times that begin or end a stride that counts, in s.
     """
 
     side: str
@@ -63,20 +63,20 @@ class Leg:
         return [one for one in found if one.stop > one.start]
 
     def over_cycle(self, values: Floats) -> Cycle:
-        """A signal over the strides of this leg."""
+        """A signal over the strides of this leg: strides x 101 points."""
         return Cycle(strides(self.times, values, self.touchdowns))
 
     def share(self, values: Floats) -> Floats:
-        """Mean of a signal over each stride, such as the share of stance."""
+        """The mean of a signal over each stride; for `standing` it is the share of stance."""
         return np.array([np.mean(values[kept]) for kept in self._inside], dtype=np.float64)
 
     def integral(self, values: Floats) -> Floats:
-        """Of a signal over the time of each stride, such as the work of a power."""
+        """The integral of a signal over each stride; for a power it is the work."""
         seconds = np.array([end - begin for begin, end in self.strides])
         return np.asarray(seconds * self.share(values), dtype=np.float64)
 
     def highest(self, values: Floats) -> Floats:
-        """Highest value of a signal in each stride, of all instants."""
+        """The maximum of a signal in each stride, over all instants."""
         return np.array([np.max(values[kept]) for kept in self._inside], dtype=np.float64)
 
     @property
@@ -92,12 +92,12 @@ class Cycle:
 
     @property
     def mean(self) -> Floats:
-        """Over the strides."""
+        """The mean over the strides."""
         return np.asarray(np.mean(self.rows, axis=0), dtype=np.float64)
 
     @property
     def deviation(self) -> Floats:
-        """Standard deviation over the strides."""
+        """The standard deviation over the strides."""
         return np.asarray(np.std(self.rows, axis=0), dtype=np.float64)
 
 
@@ -105,27 +105,26 @@ PERCENT = np.linspace(0, 100, POINTS)
 
 
 def side_of(address: str) -> str:
-    """l or r if the first word of an address ends with it, as in leg_l.knee; else nothing."""
+    """The side of an address: l or r if its first word ends with _l or _r, as in leg_l.knee; else empty."""
     found = _SIDED.fullmatch(address)
     return found[2] if found else ""
 
 
 def on_side(address: str, side: str) -> str:
-    """The same address on a side: leg_l.knee.angle becomes leg_r.knee.angle."""
+    """The same address on another side: leg_l.knee.angle becomes leg_r.knee.angle."""
     found = _SIDED.fullmatch(address)
     return address if found is None else f"{found[1]}_{side}{found[3] or ''}"
 
 
 def unsided(address: str) -> str:
-    """What an address is called within its side: leg_l.knee.angle becomes knee.angle."""
+    """The name of an address within its side: leg_l.knee.angle becomes knee.angle."""
     return address.partition(".")[2] if side_of(address) else address
 
 
 def two_legs(replay: Replay) -> tuple[Leg, Leg] | None:
-    """Left and right leg, if both sides of a model touch the ground and both take two strides; else None.
+    """The left and the right leg, if both sides touch the ground and take at least two strides; else None.
 
-    A leg is a side: its load is the sum over all contacts whose addresses begin with a word that ends
-    with _l, or _r.
+    A leg is a side: its load is the sum over all contacts whose addresses begin with a word that ends with _l or _r.
     """
     contacts = {side: _contacts(replay.model, side) for side in SIDES}
     if len(replay.times) < 2 or not has_two_legs(replay.model):
@@ -157,7 +156,7 @@ def _leg(replay: Replay, side: str, contacts: tuple[str, ...]) -> Leg:
 
 
 def _weight(replay: Replay, contacts: tuple[str, ...]) -> float:
-    """Of all that moves, in N: force over load where a contact is loaded most; 0 if none ever is."""
+    """The weight of the model in N: force over load where a contact is loaded most; 0 if no contact is ever loaded."""
     for contact in contacts:
         force, load = replay.trajectory[f"{contact}.force"], replay.trajectory[f"{contact}.load"]
         most = int(np.argmax(load))
@@ -167,7 +166,7 @@ def _weight(replay: Replay, contacts: tuple[str, ...]) -> float:
 
 
 def _rule(model: Model, side: str) -> tuple[float, float]:
-    """Threshold and hold of the model's own measure of stance on a side; its defaults if it has none."""
+    """Threshold and hold time of the model's measure of stance on a side; its defaults without such a measure."""
     values = model.values()
     senders = {c.target: c.sender for c in model.connections}
     for part in model.parts:
@@ -177,9 +176,16 @@ def _rule(model: Model, side: str) -> tuple[float, float]:
 
 
 def stands(times: Floats, load: Floats, threshold: float, hold: float) -> Floats:
-    """1 in stance, else 0: the load is above a threshold; a change that lasts less than `hold` in s is none.
+    """Detect stance by the rule of measure/stance, without its delay.
 
-    The rule of measure/stance, but nothing is told late: a change is where it begins.
+    Args:
+        times: In s.
+        load: In body weights.
+        threshold: The load above which the leg is in stance.
+        hold: The shortest duration of a change, in s; shorter changes are ignored.
+
+    Returns:
+        1 in stance, else 0, for each instant.
     """
     above = load > threshold
     edges = [0, *(np.flatnonzero(above[1:] != above[:-1]) + 1).tolist(), len(load)]
@@ -198,11 +204,11 @@ def _from(leg: Leg, begin: float) -> Leg:
 
 
 def mass(replay: Replay, leg: Leg) -> float:
-    """Of all that moves, in kg."""
+    """The mass of the whole model, in kg."""
     return leg.weight / replay.model.simulate.gravity
 
 
 def part_at(model: Model, address: str) -> Part | None:
-    """The part of an address, or the one whose signal it is."""
+    """The part with an address, or the part with the signal of that address."""
     owner = address.rpartition(".")[0]
     return next((p for p in model.parts if p.address in (address, owner)), None)

@@ -19,7 +19,7 @@ Legs = Sequence[Leg]
 
 
 def sided_muscles(replay: Replay) -> dict[str, dict[str, str]]:
-    """Muscles that both sides have: name within the side -> side -> address."""
+    """The muscles of both sides: name within the side -> side -> address."""
     found: dict[str, dict[str, str]] = {}
     for part in replay.model.parts:
         if part.type.kind == "muscle" and side_of(part.address):
@@ -28,7 +28,7 @@ def sided_muscles(replay: Replay) -> dict[str, dict[str, str]]:
 
 
 def activation_figures(replay: Replay, legs: Legs) -> list[Drawing]:
-    """Activation of each muscle that both legs have."""
+    """The activation of each muscle that both legs have."""
     names = sided_muscles(replay)
     if not names:
         return []
@@ -57,7 +57,7 @@ def activation_figures(replay: Replay, legs: Legs) -> list[Drawing]:
 
 
 def metabolic_power(replay: Replay, leg: Leg) -> Floats | None:
-    """Of all muscles of a leg, over body mass in W/kg; None if none of them tells its own."""
+    """The metabolic power of all muscles of a leg divided by body mass, in W/kg; None if no muscle reports it."""
     models = [p.address for p in replay.model.parts if p.type.kind == "metabolics" and side_of(p.address) == leg.side]
     if not models or leg.weight <= 0:
         return None
@@ -66,7 +66,7 @@ def metabolic_power(replay: Replay, leg: Leg) -> Floats | None:
 
 
 def metabolic_figures(replay: Replay, legs: Legs) -> list[Drawing]:
-    """Metabolic power of each leg's muscles."""
+    """The metabolic power of each leg's muscles."""
     powers = {leg.side: power for leg in legs if (power := metabolic_power(replay, leg)) is not None}
     if not powers:
         return []

@@ -1,6 +1,6 @@
-"""Comparison of curves over the gait cycle with what healthy people do: the tables in library/norms/.
+"""Comparison of curves over the gait cycle with the tables of healthy people in library/norms/.
 
-A curve has 101 points, 0 to 100 % of a stride from touchdown to touchdown, in SI.
+A curve has 101 points, from 0 to 100 % of a stride from touchdown to touchdown, in SI.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ _LEAST_WIDTH = 0.01  # of a band, in the unit of its table: a band without width
 
 @dataclass(frozen=True)
 class Norm:
-    """A human curve: mean and standard deviation over subjects, in SI; the deviation may be unknown."""
+    """A curve of people in SI: mean and standard deviation over subjects. The deviation may be unknown."""
 
     name: str
     unit: str
@@ -35,14 +35,14 @@ class Norm:
 
     @property
     def band(self) -> tuple[Floats, Floats]:
-        """One standard deviation below and above the mean; the mean itself where none is known."""
+        """One standard deviation below and above the mean; the mean itself if the deviation is unknown."""
         width = np.zeros(POINTS) if self.deviation is None else self.deviation
         return self.mean - width, self.mean + width
 
 
 @dataclass(frozen=True)
 class Comparison:
-    """How a curve compares with a norm: angles and their like in SI, places in the cycle from 0 to 1."""
+    """The comparison of a curve with a norm. Values are in SI, positions in the cycle from 0 to 1."""
 
     reach: float
     norm_reach: float
@@ -58,11 +58,16 @@ class Comparison:
 
 
 def read_norm(column: str, library: Library, table: str = WALKING) -> Norm:
-    """A column of a table of norms, with its `_sd` beside it if there is one.
+    """Read a column of a table of norms, and its column `_sd` if there is one.
+
+    Args:
+        column: The name of the column.
+        library: The tables.
+        table: The name of the table.
 
     Raises:
-        InvalidSpec: A table that is not there.
-        KeyError: A column.
+        InvalidSpec: There is no such table.
+        KeyError: It has no such column.
     """
     found = library.table(table)
     mean = np.array(found.curve(column, POINTS))
@@ -72,10 +77,15 @@ def read_norm(column: str, library: Library, table: str = WALKING) -> Norm:
 
 
 def strides(times: Floats, values: Floats, touchdowns: Sequence[float]) -> Floats:
-    """A signal from each touchdown to the next, at 101 points: strides x points.
+    """A signal over the strides between touchdowns.
 
     Args:
-        touchdowns: Times in s, in order; a stride that the signal does not cover is left out.
+        times: In s.
+        values: The signal.
+        touchdowns: Times in s, in order. A stride that the signal does not cover is left out.
+
+    Returns:
+        An array of strides x 101 points.
     """
     begun = [(begin, end) for begin, end in pairwise(touchdowns) if times[0] <= begin and end <= times[-1]]
     rows = [np.interp(np.linspace(begin, end, POINTS), times, values) for begin, end in begun]
@@ -83,12 +93,12 @@ def strides(times: Floats, values: Floats, touchdowns: Sequence[float]) -> Float
 
 
 def root_mean_square_error(curve: Floats, mean: Floats) -> float:
-    """In the unit of the curves."""
+    """The root-mean-square difference, in the unit of the curves."""
     return float(np.sqrt(np.mean((curve - mean) ** 2)))
 
 
 def correlation(curve: Floats, mean: Floats) -> float:
-    """Pearson's; nan if one of the curves is constant."""
+    """Pearson's correlation; nan if one of the curves is constant."""
     if np.ptp(curve) == 0 or np.ptp(mean) == 0:
         return float("nan")
     return float(np.corrcoef(curve, mean)[0, 1])
@@ -97,7 +107,7 @@ def correlation(curve: Floats, mean: Floats) -> float:
 def fit_percentage(curve: Floats, low: Floats, high: Floats, least_width: float) -> float:
     """100 (1 - mean excess outside the band / width of the band), from 0 to 100, as SCONE reports it.
 
-    The excess of each point is divided by the width there, or by `least_width` where that is more.
+    The excess at each point is divided by the width there, or by `least_width` if that is larger.
     """
     excess = np.maximum(0, np.maximum(low - curve, curve - high))
     share = float(np.mean(excess / np.maximum(high - low, least_width)))
@@ -105,10 +115,10 @@ def fit_percentage(curve: Floats, low: Floats, high: Floats, least_width: float)
 
 
 def compared(curve: Floats, norm: Norm) -> Comparison:
-    """A curve of 101 points and a norm.
+    """Compare a curve of 101 points with a norm.
 
-    Zeros of hip and ankle differ by 10 to 20 deg between laboratories: `shape_error` and `shape_fit` are
-    those of the curve once it has the mean of the norm.
+    The zeros of hip and ankle angles differ by 10 to 20 deg between laboratories. `shape_error` and `shape_fit`
+    therefore compare the curve after it was shifted to the mean of the norm.
     """
     low, high = norm.band
     least = _LEAST_WIDTH * parse_unit(norm.unit).factor

@@ -1,4 +1,4 @@
-"""A walker's gait in numbers, leg by leg, and how its curves compare with people's, as data and as tables."""
+"""The numbers of a walker's gait for each leg, and the comparison of its curves with people, as data and as tables."""
 
 from __future__ import annotations
 
@@ -28,9 +28,13 @@ Quantity = tuple[str, str, dict[str, Floats]]
 
 
 def gait_numbers(replay: Replay) -> dict[str, dict[str, Any]]:
-    """Of each quantity its unit, mean and standard deviation over strides or steps, and the means of left and right.
+    """For each quantity: its unit, mean and standard deviation over strides or steps, and the means of left and
+    right.
 
-    Nothing for what does not walk on two legs. `symmetry` has right minus left in % of their mean.
+    `symmetry` has right minus left in % of their mean.
+
+    Returns:
+        The numbers; empty unless the model walks on two legs.
     """
     legs = two_legs(replay)
     if legs is None:
@@ -72,14 +76,16 @@ def _of_steps(replay: Replay, legs: Legs) -> Iterator[Quantity]:
 
 
 def _of_forces(legs: Legs) -> Iterator[Quantity]:
-    """In body weights, of all instants of each stride."""
+    """Peaks of the ground forces in body weights, over all instants of each stride."""
     yield "peak_force", "1", {leg.side: leg.highest(leg.load) for leg in legs}
     yield "braking", "1", {leg.side: -leg.highest(-leg.shear) for leg in legs}
     yield "propulsion", "1", {leg.side: leg.highest(leg.shear) for leg in legs}
 
 
 def _of_pressure(replay: Replay, legs: Legs) -> Iterator[Quantity]:
-    """From the heel's print, at touchdown and at take-off, and when it is past the middle of the foot."""
+    """The center of pressure from the print of the heel: at touchdown, at take-off, and the time at which it passes
+    the middle of the foot.
+    """
     found = {leg.side: one for leg in legs if (one := pressure(replay, leg)) is not None}
     if not found:
         return
@@ -112,7 +118,7 @@ def _of_energy(replay: Replay, legs: Legs) -> Iterator[Quantity]:
 
 
 def gait_table(replay: Replay) -> Table | None:
-    """The numbers of a gait; None for what does not walk on two legs."""
+    """The numbers of a gait; None unless the model walks on two legs."""
     found = {name: row for name, row in gait_numbers(replay).items() if "mean" in row}
     columns = ("gait", "unit", "mean", "deviation", "left", "right")
     rows = tuple(
@@ -123,7 +129,7 @@ def gait_table(replay: Replay) -> Table | None:
 
 
 def norms_table(replay: Replay) -> Table | None:
-    """Each leg's curves beside people's; None for what has none."""
+    """The curves of each leg beside those of people; None without any."""
     columns = ("curve", "leg", "correlation", "RMSE", "range", "people's range", "peak later by (%)", "fit (%)")
     rows = tuple(
         (f"{curve.rpartition('.')[2]} ({shown_unit(row['unit'])})", leg, *(_shown(each, 3) for each in _compared(row)))
@@ -140,5 +146,5 @@ def _compared(row: Mapping[str, Any]) -> list[float | None]:
 
 
 def _shown(number: float | None, digits: int) -> str:
-    """As a table has it; what is left of rounding is 0."""
+    """A number as text; rounding errors become 0."""
     return shown(None if number is None else round(number, 9), digits)

@@ -1,4 +1,4 @@
-"""The gaits of several walkers over one another: a line for each run, a column for each leg, people beside them."""
+"""The gaits of several walkers over one another: a line for each run, a column for each leg, with people's data."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class Curve:
     """One quantity of one run over the gait cycle.
 
     Attributes:
-        unit: In which it is drawn; none if the name says it.
+        unit: The unit in which it is drawn; empty if the name contains it.
         cycles: By side, in SI.
     """
 
@@ -44,12 +44,12 @@ class Curve:
 
     @property
     def factor(self) -> float:
-        """From SI to the unit."""
+        """The factor from SI to the unit."""
         return 1 / parse_unit(self.unit).factor if self.unit else 1.0
 
     @property
     def axis(self) -> str:
-        """What its axis is called, in short lines."""
+        """The label of its axis, in short lines."""
         lines = textwrap.wrap(self.name, 18)
         return "\n".join([*lines, f"({shown_unit(self.unit)})"] if self.unit else lines)
 
@@ -105,10 +105,10 @@ def _activations(replay: Replay, legs: Legs) -> list[Curve]:
 
 @dataclass(frozen=True)
 class _Overlay:
-    """What one kind of figure shows.
+    """One kind of figure.
 
     Attributes:
-        name: Of its file.
+        name: The name of its file.
     """
 
     name: str
@@ -133,7 +133,7 @@ _OVERLAYS = (
 
 
 def _drawn(overlay: _Overlay, walkers: Sequence[tuple[Replay, Legs]], others: Sequence[str]) -> Iterator[Drawing]:
-    """The figures of one kind, a few quantities in each."""
+    """The figures of one kind, with a few quantities each."""
     runs = [(replay.label, {one.name: one for one in overlay.curves(replay, legs)}) for replay, legs in walkers]
     names = list(dict.fromkeys(name for _, curves in runs for name in curves))
     pages = [names[i : i + _ROWS] for i in range(0, len(names), _ROWS)]
@@ -161,7 +161,7 @@ def _figure(names: Sequence[str], runs: Sequence[tuple[str, Mapping[str, Curve]]
 
 
 def _panel(panel: Axes, side: str, curves: Sequence[tuple[str, Curve | None]]) -> None:
-    """One side of one quantity: people, then a line for each run; the n-th run has the n-th look everywhere."""
+    """One side of one quantity: people, then a line for each run. The n-th run has the n-th style everywhere."""
     norms = [curve.norm for _, curve in curves if curve and curve.norm]
     if norms:
         first = next(curve for _, curve in curves if curve)
@@ -174,12 +174,12 @@ def _panel(panel: Axes, side: str, curves: Sequence[tuple[str, Curve | None]]) -
 
 
 def _look(number: int) -> dict[str, Any]:
-    """Colour and stroke of the n-th run, from 0; people's colour is theirs alone."""
+    """Colour and line style of the n-th run, from 0. The colour of people is not used."""
     return {"color": _COLOURS[number % len(_COLOURS)], "linestyle": LINES[number // len(_COLOURS) % len(LINES)]}
 
 
 def _legend(figure: Figure, axes: Sequence[Axes]) -> None:
-    """One for all panels, below them."""
+    """One legend for all panels, below them."""
     found = {label: handle for panel in axes for handle, label in zip(*panel.get_legend_handles_labels(), strict=True)}
     columns = 1 if max(map(len, found), default=0) > 36 else 2
     figure.legend(

@@ -1,4 +1,4 @@
-"""How panels over the gait cycle look: each leg's mean and band, and people beside them."""
+"""Panels over the gait cycle: mean and band of each leg, with people's data."""
 
 from __future__ import annotations
 
@@ -24,13 +24,13 @@ SPREAD = "Bands of a leg's colour: one standard deviation over its strides."
 
 
 def said(legs: Sequence[Leg], until: str = "touchdown") -> str:
-    """Which strides are meant, and what of them."""
+    """Which strides are shown, and how, in words."""
     counts = " and ".join(f"{len(leg.strides)} strides of the {leg.name} leg" for leg in legs)
     return f"mean of {counts}, from {min(leg.touchdowns[0] for leg in legs):.3g} s on, from touchdown to {until}"
 
 
 def draw_band(panel: Axes, leg: Leg, cycle: Cycle, factor: float = 1.0) -> None:
-    """Mean of a leg and one standard deviation around it."""
+    """Draw the mean of a leg and one standard deviation around it."""
     style = LINE[leg.side]
     mean, deviation = factor * cycle.mean, abs(factor) * cycle.deviation
     panel.fill_between(PERCENT, mean - deviation, mean + deviation, color=style["color"], alpha=0.18, linewidth=0)
@@ -39,14 +39,14 @@ def draw_band(panel: Axes, leg: Leg, cycle: Cycle, factor: float = 1.0) -> None:
 
 
 def draw_cycle(panel: Axes, leg: Leg, cycle: Cycle, factor: float = 1.0) -> None:
-    """Mean and band over the gait cycle, and a thin line where the leg lifts off."""
+    """Draw mean and band over the gait cycle, and a thin line where the leg leaves the ground."""
     draw_band(panel, leg, cycle, factor)
     lift = 100 * float(np.mean(leg.share(leg.standing)))
     panel.axvline(lift, color=LINE[leg.side]["color"], linestyle=":", linewidth=0.9)
 
 
 def draw_people(panel: Axes, norm: Norm, factor: float) -> None:
-    """People's mean, with their band if it is known."""
+    """Draw people's mean, with the band if it is known."""
     if norm.deviation is not None:
         low, high = (factor * edge for edge in norm.band)
         panel.fill_between(PERCENT, low, high, color=PEOPLE, alpha=0.25, linewidth=0)
@@ -54,6 +54,6 @@ def draw_people(panel: Axes, norm: Norm, factor: float) -> None:
 
 
 def name_lines(figure: Figure, panel: Axes) -> None:
-    """One legend for all panels, above them."""
+    """Add one legend for all panels, above them."""
     handles, labels = panel.get_legend_handles_labels()
     figure.legend(handles, labels, loc="outside upper right", ncols=len(labels), frameon=False, fontsize=FONT)

@@ -1,4 +1,4 @@
-"""The center of pressure under a foot, over stance: from the heel's print, forwards along the ground."""
+"""The center of pressure under a foot during stance, measured from the print of the heel, forwards along the ground."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from gaitsim.analysis.replays.replay import Replay
 
 @dataclass(frozen=True)
 class Pressure:
-    """Center of pressure of one foot in m, over its stances: 0 where the heel stood.
+    """The center of pressure of one foot during its stances, in m; 0 is where the heel stood.
 
     Attributes:
         heel, front: The hindmost and the foremost contact of the foot.
-        length: From one to the other, in m, where the foot is flat.
+        length: The distance between them in m, where the foot is flat.
     """
 
     leg: Leg
@@ -34,10 +34,10 @@ class Pressure:
 
     @property
     def middle_at(self) -> float:
-        """Share of stance, from 0 to 1, at which the mean passes the middle of the foot; nan if it never does.
+        """The share of stance, 0 to 1, at which the mean passes the middle of the foot; nan if it never does.
 
-        Where it passes more than once, the last time: a foot that slaps down is on its ball for a moment and back
-        on its heel, and whether the mean of such moments is beyond the middle is chance.
+        If it passes several times, the last time counts: a foot that slaps down is on its ball for a moment and then on
+        its heel again, and it is chance whether the mean of such moments lies beyond the middle.
         """
         beyond = self.over_stance.mean > self.length / 2
         passing = np.flatnonzero(beyond & ~np.concatenate([[False], beyond[:-1]]))
@@ -47,8 +47,8 @@ class Pressure:
 def pressure(replay: Replay, leg: Leg) -> Pressure | None:
     """The center of pressure of a leg; None if it touches the ground at one place only.
 
-    It is the mean of the places of the foot's contacts, each weighed by its force along the ground's normal.
-    The heel's print is the same mean of the heel alone, or where it is at touchdown if it never carries.
+    It is the mean of the positions of the foot's contacts, weighted by their normal forces. The print of the heel is
+    the same mean for the heel alone, or its position at touchdown if it is never loaded.
     """
     places = {c: replay.trajectory[f"{c}.position"] for c in leg.contacts}
     forces = {c: np.maximum(0, replay.trajectory[f"{c}.force"]) for c in leg.contacts}
@@ -75,7 +75,7 @@ def _print(place: Floats, force: Floats) -> float:
 
 
 def pressure_figures(replay: Replay, legs: Sequence[Leg]) -> list[Drawing]:
-    """The center of pressure of both feet over stance."""
+    """The center of pressure of both feet during stance."""
     found = [one for leg in legs if (one := pressure(replay, leg)) is not None]
     if not found:
         return []

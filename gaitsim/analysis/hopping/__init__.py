@@ -1,1 +1,1 @@
-"""Figures of a hopper: apexes, return map, force of the ground."""
+"""Figures of a hopper: apexes, return map, ground force."""

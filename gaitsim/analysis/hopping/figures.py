@@ -1,4 +1,4 @@
-"""Hopping: apexes, the return map with its fixed point, and the force of the ground."""
+"""Figures of hopping: apexes, the return map with its fixed point, and the ground force."""
 
 from __future__ import annotations
 
@@ -25,10 +25,10 @@ _HIGHEST = 2.2  # times the highest apex above touchdown
 
 @dataclass(frozen=True)
 class Hops:
-    """What a measure of hopping watches: heights in m above its reference, and 1 in the air.
+    """The hops that a measure observes: heights in m above its reference, and 1 in the air.
 
     Attributes:
-        coordinate: The joint coordinate that is the height, if it is one that `initial:` sets.
+        coordinate: The joint coordinate of the height, if `initial:` can set it.
     """
 
     measure: str
@@ -41,10 +41,10 @@ class Hops:
 
     @property
     def apexes(self) -> list[int]:
-        """The instants of the apexes: the highest point of each flight, the start in the air included.
+        """The instants of the apexes: the highest point of each flight, including a start in the air.
 
-        A flight that the run cuts before its highest point has none, nor one that is lower than the
-        measure's least hop.
+        A flight that the end of the run cuts before its highest point has none. Neither has a hop below the least
+        height of the measure.
         """
         flying = self.airborne > 0.5
         if not len(flying):
@@ -64,13 +64,13 @@ class Hops:
 
     @property
     def touchdown(self) -> float | None:
-        """Height at the first touchdown; None if there is none after a flight."""
+        """The height at the first touchdown after a flight; None if there is none."""
         landed = np.flatnonzero((self.airborne[:-1] > 0.5) & (self.airborne[1:] <= 0.5)) + 1
         return float(self.heights[landed[0]]) if landed.size else None
 
 
 def hops_of(replay: Replay) -> Hops | None:
-    """The hops of a run, as the first measure that watches a height and a contact sees them; else None."""
+    """The hops of a run, by the first measure that observes a height and a contact; None without such a measure."""
     part = next((part for part in replay.model.parts if part.measure and _watches_hops(part)), None)
     if part is None:
         return None
@@ -101,23 +101,24 @@ def _watches_hops(part: Part) -> bool:
 
 @dataclass(frozen=True)
 class Dropped:
-    """Apex heights in m above the reference, one after the other; nan where no second apex came."""
+    """Pairs of consecutive apex heights in m above the reference; nan where there was no second apex."""
 
     before: Floats
     after: Floats
 
     @property
     def fixed_points(self) -> list[FixedPoint]:
-        """Where the map meets the diagonal, with its slope there, between neighbouring starts."""
+        """The fixed points of the map and its slopes there, between neighbouring starts."""
         known = np.isfinite(self.after)
         x, above = self.before[known], (self.after - self.before)[known]
         return [fixed_between(x, above, int(i)) for i in np.flatnonzero(above[:-1] * above[1:] < 0)]
 
 
 def dropped(replay: Replay, count: int = _STARTS) -> Dropped | None:
-    """The return map from many starts: the same model in the same posture, dropped from other heights.
+    """The return map from many starts: the model is dropped in the same posture from different heights.
 
-    None if the height is no coordinate that `initial:` sets, or if the run never touched down.
+    Returns:
+        The map; None if `initial:` cannot set the height, or if the run never touched down.
     """
     hops = hops_of(replay)
     if hops is None or hops.coordinate is None or hops.touchdown is None or not hops.apexes:
@@ -142,7 +143,7 @@ def dropped(replay: Replay, count: int = _STARTS) -> Dropped | None:
 
 
 def _with_free_start(model: Model, coordinate: str) -> Model:
-    """The model with one more free number: where a coordinate starts."""
+    """The model with an additional free number: the initial value of a coordinate."""
     place = model.initial[coordinate]
     number = replace(model.numbers[place], free=len(model.free), expression=None, fraction_of=None)
     name, start = f"initial.{coordinate}", model.values()[place]
@@ -152,7 +153,7 @@ def _with_free_start(model: Model, coordinate: str) -> Model:
 
 
 def hopping_figures(replay: Replay) -> list[Drawing]:
-    """The return map, the apexes, and the force of the ground, which a walker has over its gait cycle."""
+    """The return map, the apexes, and the ground force. Walkers have the latter over the gait cycle instead."""
     if len(replay.times) < 2:
         return []
     hops = hops_of(replay)
@@ -218,7 +219,7 @@ def _of_starts(starts: Dropped) -> str:
 
 
 def _square(*ends: float) -> tuple[float, float]:
-    """One range for both axes."""
+    """Give both axes one range."""
     low, high = min(ends), max(ends)
     margin = 0.05 * (high - low) or 0.05
     return low - margin, high + margin

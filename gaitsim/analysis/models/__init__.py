@@ -1,1 +1,1 @@
-"""A component or a model by itself: its curves, moment arms, costs, and how step size matters."""
+"""Figures of a component or a model: curves, moment arms, costs of a step, convergence over step sizes."""

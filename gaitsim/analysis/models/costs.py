@@ -1,4 +1,4 @@
-"""The picture of a profile: what costs most, as bars."""
+"""The figure of a profile: the largest costs as bars."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _INCHES = 0.19  # a bar
 
 
 def cost_figure(costs: Sequence[Cost], profile: Profile, name: str) -> Drawing:
-    """The largest costs of a step, one bar each, coloured by the kind of component; MuJoCo's are grey."""
+    """The largest costs of a step, one bar each, coloured by the kind of component; those of MuJoCo are grey."""
     shown = costs[:_BARS]
     figure, (axes,) = panels(height=0.6 + _INCHES * len(shown))
     kinds = list(dict.fromkeys(kind for kind in map(_kind, shown) if kind))

@@ -1,4 +1,4 @@
-"""The picture of a component's curves: one panel for each graph."""
+"""The figure of a component's curves, with one panel for each graph."""
 
 from __future__ import annotations
 
@@ -18,11 +18,7 @@ if TYPE_CHECKING:
 
 
 def draw(graphs: Sequence[Graph], file: Path, title: str) -> None:
-    """Write a PNG with every graph, two panels a row; angles in degrees.
-
-    Raises:
-        OSError: The file cannot be read or written.
-    """
+    """Write a PNG with all graphs, two panels in a row, with angles in degrees."""
     columns = min(2, len(graphs))
     rows = -(-len(graphs) // columns)
     figure, axes = panels(rows, columns, height=2.9)
@@ -53,7 +49,7 @@ def _panel(axes: Axes, graph: Graph) -> None:
 
 
 def _meanwhile(axes: Axes, graph: Graph, line: Line, style: str) -> None:
-    """An input that changes: as it is where it fits the axis, else scaled to it, which its label says."""
+    """Draw an input that changes. It is scaled if it does not fit the axis; its label says so."""
     peak = float(np.abs(line.y).max()) or 1.0
     shown = max((float(np.nanmax(np.abs(one.y))) for one in graph.lines), default=1.0) or 1.0
     fits = graph.up.unit == "1" and 0.2 < shown / peak < 5
@@ -62,7 +58,7 @@ def _meanwhile(axes: Axes, graph: Graph, line: Line, style: str) -> None:
 
 
 def _degrees(axis: Axis) -> tuple[str, float]:
-    """The unit that is shown, and the factor to it: degrees for radians."""
+    """The shown unit and the factor to it: degrees for radians."""
     words = axis.unit.split("/")
     if words[0].split()[0] == "rad":
         return axis.unit.replace("rad", "deg", 1), float(np.degrees(1.0))

@@ -1,4 +1,4 @@
-"""The picture of moment arms, and what is worth a warning about them."""
+"""The figure of moment arms, and warnings about them."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from gaitsim.simulation.moment_arms import MomentArm
 
 
 def warnings(arms: Sequence[MomentArm]) -> list[Fault]:
-    """A change of sign of a moment arm within the range of its hinge, and a path that slips."""
+    """Moment arms that change their sign within the range of the hinge, and paths that slip."""
     found = []
     for arm in arms:
         low, high = np.degrees(arm.angles[[0, -1]])
@@ -38,7 +38,9 @@ _SENSES = {"hip": _HIP, "hip_flexion": _HIP, "knee": ("flexes", "extends"), "ank
 
 
 def said(arm: MomentArm) -> str:
-    """Which way a muscle turns a joint in the initial pose, such as "leg_l.soleus plantarflexes leg_l.ankle (...)"."""
+    """In which direction a muscle turns a joint in the initial pose, such as "leg_l.soleus plantarflexes leg_l.ankle
+    (...)".
+    """
     if abs(arm.initial) < 1e-6:
         return f"{arm.muscle} does not turn {arm.hinge.address} at the start"
     if arm.backwards is None:
@@ -54,7 +56,9 @@ def said(arm: MomentArm) -> str:
 
 
 def table(arms: Sequence[MomentArm]) -> list[dict[str, Any]]:
-    """Of each arm: who turns what, in words, and the arm in the initial pose in m, positive where the angle grows."""
+    """For each moment arm: muscle, joint and direction in words, and the arm in the initial pose in m, positive
+    where the angle increases.
+    """
     return [
         {"muscle": arm.muscle, "joint": arm.hinge.address, "says": said(arm), "arm": arm.initial, "unit": "m"}
         for arm in arms
@@ -67,7 +71,7 @@ def _bare(address: str) -> str:
 
 
 def draw(arms: Sequence[MomentArm], file: Path, title: str) -> None:
-    """A PNG with one panel for each hinge: moment arms in cm over the angle in degrees."""
+    """Write a PNG with one panel for each hinge: moment arms in cm over the angle in degrees."""
     from matplotlib.figure import Figure
 
     hinges = list(dict.fromkeys(arm.hinge.address for arm in arms))
@@ -97,7 +101,7 @@ def draw(arms: Sequence[MomentArm], file: Path, title: str) -> None:
 
 
 def _with_gaps(arm: MomentArm) -> tuple[list[float], list[float]]:
-    """Angles in degrees and arms in cm; the line breaks where the path slips."""
+    """Angles in degrees and arms in cm, with gaps where the path slips."""
     angles, arms = [], []
     for angle, value in zip(arm.angles, arm.arms, strict=True):
         if arm.points and float(angle) in arm.jumps:

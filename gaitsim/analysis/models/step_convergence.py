@@ -1,4 +1,4 @@
-"""What a shorter step changes: every metric at the step of a spec, at a half and at a quarter of it."""
+"""Convergence over the step: every metric at the step of a spec, a half and a quarter of it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ PARTS = (1, 2, 4)  # of the step
 
 @dataclass(frozen=True)
 class Change:
-    """One metric at the step, a half and a quarter; None where the run failed or it had no value."""
+    """One metric at the step, a half and a quarter; None where the run failed or had no value."""
 
     name: str
     unit: str
@@ -22,7 +22,7 @@ class Change:
 
     @property
     def relative(self) -> float | None:
-        """How far the step's value is from the quarter's, in parts of the largest of the three."""
+        """The difference between the step and the quarter, relative to the largest of the three values."""
         if any(value is None for value in self.values):
             return None
         known = [value for value in self.values if value is not None]
@@ -31,7 +31,7 @@ class Change:
 
     @property
     def ratio(self) -> float | None:
-        """How many times the second halving changes less than the first: 2 at first order, 4 at second."""
+        """The ratio of the changes of the first and the second halving: 2 for first order, 4 for second."""
         first, second, third = self.values
         if first is None or second is None or third is None or third == second:
             return None
@@ -39,12 +39,12 @@ class Change:
 
     @property
     def order(self) -> float | None:
-        """The observed order of convergence; None where the changes do not shrink in one direction."""
+        """The observed order of convergence; None where the changes do not decrease in one direction."""
         ratio = self.ratio
         return math.log2(ratio) if ratio is not None and ratio > 0 else None
 
     def flag(self, tolerance: float) -> str:
-        """What is worth a word: empty if the change is within the tolerance."""
+        """The remark about the change; empty if it is within the tolerance."""
         relative = self.relative
         if relative is None:
             return "no value"
@@ -61,7 +61,7 @@ class StepConvergence:
 
 
 def step_convergence(model: Model) -> StepConvergence:
-    """Run a model three times, at ever shorter steps, on as many cores as there are."""
+    """Run a model three times with decreasing steps, in parallel."""
     steps = tuple(model.simulate.step / n for n in PARTS)
     models = [replace(model, simulate=replace(model.simulate, step=step)) for step in steps]
     outcomes = tuple(run_all(models, "rapid"))

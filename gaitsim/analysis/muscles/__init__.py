@@ -1,1 +1,1 @@
-"""Figures of muscles and of the energy that they spend."""
+"""Figures of muscles and of their energy."""

@@ -1,4 +1,4 @@
-"""Energies that sum: what is stored where, who gave and who took, and what stays unexplained."""
+"""Energy balances: what is stored, what was supplied and lost, and the residual."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class Balance:
     """Energies in J over time.
 
     Attributes:
-        stored: What is held, by name.
-        exchanged: What came in since the first instant, by name; losses are negative. They explain the change of the
-            total, up to the residual.
+        stored: Stored energies by name.
+        exchanged: Energies supplied since the first instant, by name; losses are negative. They explain the change of
+            the total up to the residual.
     """
 
     stored: Mapping[str, Floats]
@@ -46,18 +46,18 @@ class Balance:
 
     @property
     def residual(self) -> Floats:
-        """Change of the total that no part explains."""
+        """The change of the total that no part explains, in J."""
         return self.change - sum(self.exchanged.values(), start=np.zeros_like(self.total))
 
     @property
     def turned_over(self) -> float:
-        """The largest swing of any energy in the balance, to which a residual is compared."""
+        """The largest range of any energy in the balance, with which the residual is compared."""
         swings = [float(np.ptp(values)) for values in (*self.stored.values(), *self.exchanged.values())]
         return max(swings, default=0.0)
 
 
 def balance(replay: Replay) -> Balance | None:
-    """The energies of a run; None if nothing in the model reports kinetic and potential energy."""
+    """The energy balance of a run; None if no part reports kinetic and potential energy."""
     sensor = next((p for p in replay.model.parts if {"kinetic", "potential"} <= p.type.outputs.keys()), None)
     if sensor is None or not len(replay.times):
         return None
@@ -80,7 +80,7 @@ def _worth(energies: Mapping[str, Floats]) -> dict[str, Floats]:
 
 
 def _of_part(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, Floats]]:
-    """What a contact, a constraint or a joint holds, and what came in through it."""
+    """What a contact, a constraint or a joint stores and supplies."""
     own, signal = part.address, replay.trajectory
     if part.type.kind == "contact":
         energy = signal[f"{own}.energy"]
@@ -107,7 +107,7 @@ def _work_of_contact(replay: Replay, part: Part) -> Floats:
 
 
 def _applied(replay: Replay, force: str, velocity: str) -> Floats:
-    """Work of a force that was constant within each step, which is told at the end of the step."""
+    """The work of a force that is constant within each step and reported at the end of the step."""
     signal = replay.trajectory
     rate = signal[velocity]
     steps = signal[force][1:] * 0.5 * (rate[1:] + rate[:-1]) * np.diff(replay.times)
@@ -115,7 +115,7 @@ def _applied(replay: Replay, force: str, velocity: str) -> Floats:
 
 
 def _of_joint(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, Floats]]:
-    """Stops, damping and drives of a joint with one velocity; what muscles' paths send counts as the muscles'."""
+    """Stops, damping and drives of a joint with one velocity. Moments of muscle paths count as the muscles'."""
     own, outputs = part.address, part.type.outputs
     rates = [name for name, port in outputs.items() if port.unit in ("m/s", "rad/s")]
     if len(rates) != 1:
@@ -146,7 +146,7 @@ def _integral(power: Floats, times: Floats) -> Floats:
 
 
 def energy_figures(replay: Replay) -> list[Drawing]:
-    """The stored energies of the last cycles, stacked; and over the run who gave and who took."""
+    """The stored energies of the last cycles, stacked, and the supplied energies over the run."""
     whole = balance(replay)
     if whole is None or len(replay.times) < 2:
         return []
@@ -155,7 +155,7 @@ def energy_figures(replay: Replay) -> list[Drawing]:
 
 
 def _largest(energies: Mapping[str, Floats]) -> dict[str, Floats]:
-    """The energies that swing most, in their order; all others as one sum, so that the whole stays the same."""
+    """The energies with the largest range, in their order, and the sum of all others."""
     if len(energies) <= _SHOWN:
         return dict(energies)
     by_swing = sorted(energies, key=lambda name: (name != CREATED, -float(np.ptp(energies[name]))))

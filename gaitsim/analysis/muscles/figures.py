@@ -1,4 +1,4 @@
-"""Figures of muscles: what excites them, what they do over time, and the loops of work that they run through."""
+"""Figures of muscles: excitations, signals over time, and work loops."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ _MANY = 4  # a model with more muscles gets overviews
 
 @dataclass(frozen=True)
 class Muscle:
-    """One muscle's signals, in SI."""
+    """The signals of one muscle, in SI."""
 
     address: str
     force: Floats
@@ -36,15 +36,15 @@ class Muscle:
 
     @property
     def contractile_work(self) -> Floats:
-        """Work that the contractile element has done since the first instant, in J.
+        """The work of the contractile element since the first instant, in J.
 
-        What the whole unit gave, plus what its springs hold: the same for every muscle model.
+        It is the work of the whole unit plus the energy in its springs, for every muscle model.
         """
         return work_done(self.force, self.path_length) + self.elastic_energy - self.elastic_energy[:1]
 
 
 def muscles(replay: Replay) -> list[Muscle]:
-    """Every muscle of a run."""
+    """All muscles of a run."""
     values, found = replay.model.values(), []
     for part in replay.model.parts:
         if part.type.kind != "muscle":
@@ -70,20 +70,22 @@ def muscles(replay: Replay) -> list[Muscle]:
 
 
 def work_done(force: Floats, length: Floats) -> Floats:
-    """Work in J that a tension in N has done since the first instant; positive while its path shortens."""
+    """The work in J of a tension in N since the first instant; positive while the path shortens."""
     steps = -0.5 * (force[1:] + force[:-1]) * np.diff(length)
     return np.concatenate([np.zeros(min(1, len(force))), np.cumsum(steps)])
 
 
 def net_work(force: Floats, length: Floats) -> float:
-    """Work in J of one run through a loop, which is closed by a straight line; positive if it is given out."""
+    """The work in J of a loop, which is closed by a straight line; positive if the muscle does work."""
     if len(force) < 2:
         return 0.0
     return float(work_done(np.append(force, force[0]), np.append(length, length[0]))[-1])
 
 
 def muscle_figures(replay: Replay) -> list[Drawing]:
-    """Two figures for each muscle: its signals over time, and its work loops; of many, overviews instead."""
+    """Two figures for each muscle: its signals over time, and its work loops. Models with many muscles get overviews
+    instead.
+    """
     if len(replay.times) < 2:
         return []
     addresses = [muscle.address for muscle in muscles(replay)]
@@ -93,12 +95,12 @@ def muscle_figures(replay: Replay) -> list[Drawing]:
 
 
 def figures_of(replay: Replay, address: str) -> list[Drawing]:
-    """One muscle's signals over time, and its work loops."""
+    """The signals of one muscle over time, and its work loops."""
     return [_over_time(replay, address), *_loops(replay, address)]
 
 
 def matching_muscles(replay: Replay, text: str) -> list[str]:
-    """Addresses of the muscles that an address or a pattern such as 'leg_*.soleus' names."""
+    """The addresses of the muscles that an address or a pattern such as 'leg_*.soleus' names."""
     return [muscle.address for muscle in muscles(replay) if fnmatchcase(muscle.address, text)]
 
 
@@ -161,7 +163,7 @@ def _loops(replay: Replay, address: str) -> list[Drawing]:
 
 
 def _draw_loop(axes: Axes, lengths: Floats, forces: Floats) -> None:
-    """A loop with arrows along it and dots where it begins."""
+    """Draw a loop with arrows along it and dots at its beginnings."""
     axes.plot(lengths, forces, color=PALETTE[0])
     axes.plot(lengths[:1], forces[:1], "o", color=PALETTE[0], markersize=4)
     width, height = np.ptp(lengths) or 1.0, np.ptp(forces) or 1.0

@@ -1,4 +1,4 @@
-"""Figures of many muscles together, one of each leg: what they do over time, and who excites them."""
+"""Figures of all muscles of a leg: their signals over time, and their excitations."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _LARGEST = 1.5  # of what is drawn of an excitation, either way
 
 
 def overview_figures(replay: Replay) -> list[Drawing]:
-    """For the muscles of each leg, and those of none: what they do, and what excites them."""
+    """The signals and the excitations of the muscles of each leg, and of muscles without a side."""
     found = []
     for side, muscles in _groups(replay).items():
         of = f" of the {SIDES[side]} leg" if side else ""
@@ -55,7 +55,7 @@ _SENT = (
 
 
 def _groups(replay: Replay) -> dict[str, list[str]]:
-    """Addresses of muscles by side; under no side those that belong to none."""
+    """The addresses of muscles by side; the empty side has those of no leg."""
     found: dict[str, list[str]] = {}
     for part in replay.model.parts:
         if part.type.kind == "muscle":
@@ -88,7 +88,7 @@ def _overview(replay: Replay, muscles: list[str], name: str, title: str, what: s
 
 
 def _name_lines(figure: Figure, axes: list[Axes]) -> None:
-    """One legend above all panels if their lines have the same names, else one in each."""
+    """Add one legend above all panels if their lines have the same names, else one in each."""
     named = [panel.get_legend_handles_labels() for panel in axes]
     if all(labels == named[0][1] for _, labels in named):
         figure.legend(*named[0], loc="outside upper right", ncols=3, frameon=False, fontsize=FONT - 1)

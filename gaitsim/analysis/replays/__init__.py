@@ -1,1 +1,1 @@
-"""A run that is looked at, its cycles, and known values beside it."""
+"""A recorded run, its cycles, and known values beside it."""

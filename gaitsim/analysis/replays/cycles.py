@@ -1,4 +1,4 @@
-"""When a model stands and when it flies, and the cycles from one touchdown to the next."""
+"""Stance and flight of a model, and its cycles from touchdown to touchdown."""
 
 from __future__ import annotations
 
@@ -24,9 +24,10 @@ _LEAST_FLIGHT = 0.25  # of the longest flight; a contact that follows sooner is 
 
 
 def arriving(replay: Replay, port: str) -> Floats:
-    """What came in at an input: its constant or the sum of its senders, each delayed as it was.
+    """The value of an input at every instant: its constant or the sum of its senders, with their delays.
 
-    Nan where a delayed signal was sent before the instants that are looked at.
+    Returns:
+        One value for each instant; nan where a delayed signal lies before the first one.
     """
     model, times = replay.model, replay.times
     values = model.values()
@@ -40,7 +41,7 @@ def arriving(replay: Replay, port: str) -> Floats:
 
 
 def sent(replay: Replay, connection: Connection) -> Floats:
-    """What arrives of one sender, delayed as it was; nan where it was sent before what is looked at."""
+    """The contribution of one sender, with its delay; nan before the first instant."""
     times, signal = replay.times, replay.trajectory[connection.sender]
     values = replay.model.values()
     delay = 0.0 if connection.delay is None else values[connection.delay]
@@ -51,9 +52,14 @@ def sent(replay: Replay, connection: Connection) -> Floats:
 
 
 def stance(replay: Replay, address: str = "") -> Floats | None:
-    """1 while a contact or a leg stands, else 0; of the side that an address belongs to, if it has its own.
+    """The stance of a model.
 
-    None if nothing in the model can stand.
+    Args:
+        replay: The run.
+        address: An address whose side counts, if that has contacts of its own.
+
+    Returns:
+        1 while a contact or a leg is loaded, else 0; None if nothing in the model can be.
     """
     signals = [s for s in replay.trajectory.signals if s.rpartition(".")[2] in _CONTACTS]
     own = [s for s in signals if "." in address and s.startswith(address.split(".")[0] + ".")]
@@ -64,7 +70,9 @@ def stance(replay: Replay, address: str = "") -> Floats | None:
 
 
 def touchdowns(times: Floats, standing: Floats) -> list[int]:
-    """The instants at which a flight ends; one shorter than a quarter of the longest is a bounce of the foot."""
+    """The instants at which a flight ends. Flights shorter than a quarter of the longest are bounces of the foot and
+    do not count.
+    """
     down = standing > 0.5
     landings = np.flatnonzero(down[1:] & ~down[:-1]) + 1
     leavings = np.flatnonzero(~down[1:] & down[:-1]) + 1
@@ -75,7 +83,9 @@ def touchdowns(times: Floats, standing: Floats) -> list[int]:
 
 
 def last_cycles(replay: Replay, count: int, address: str = "") -> Span | None:
-    """From one touchdown to the last one, `count` cycles later or as many as there are; None without a cycle."""
+    """The times of two touchdowns, the last one and that `count` cycles before, or of as many as there are; None
+    without a cycle.
+    """
     standing = stance(replay, address)
     if standing is None or len(standing) < 2:
         return None
@@ -87,7 +97,7 @@ def last_cycles(replay: Replay, count: int, address: str = "") -> Span | None:
 
 
 def shown_part(replay: Replay, count: int = 3, address: str = "") -> tuple[Replay, str]:
-    """The last cycles of a run, or all of it, and how a caption calls that."""
+    """The last cycles of a run, or all of it, and the words for it in a caption."""
     span = last_cycles(replay, count, address)
     if span is None or replay.outcome.status == "failed":
         return replay, "the whole run"
@@ -102,7 +112,11 @@ def _touchdowns_of(replay: Replay, address: str) -> Sequence[int]:
 
 
 def shade_stance(axes: Axes, replay: Replay, address: str = "") -> bool:
-    """Shade where the model stands; whether it ever does."""
+    """Shade the stance of the model.
+
+    Returns:
+        Whether there is any.
+    """
     standing = stance(replay, address)
     if standing is None or not (standing > 0.5).any():
         return False
@@ -116,7 +130,7 @@ def shade_stance(axes: Axes, replay: Replay, address: str = "") -> bool:
 
 
 def thinned(times: Floats, values: Floats, limit: int = 2400) -> tuple[Floats, Floats]:
-    """A line with fewer points that looks the same: of each stretch its lowest and its highest point."""
+    """A line with fewer points that looks the same: the lowest and the highest point of each section."""
     if len(times) <= limit:
         return times, values
     stretches = np.array_split(np.arange(len(times)), limit // 2)

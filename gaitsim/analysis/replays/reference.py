@@ -1,4 +1,4 @@
-"""Numbers to compare a model with: specs/reference/<model>.yaml, each with its source."""
+"""Known values to compare a model with: specs/reference/<model>.yaml, each with its source."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ Floats = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Reference:
-    """Points that a figure overlays, in SI, and where they come from."""
+    """Points for a figure in SI, and their source."""
 
     points: tuple[Floats, Floats]
     source: str
 
 
 def return_map_of(replay: Replay) -> Reference | None:
-    """Known apex heights in m, and the ones after them."""
+    """Known apex heights in m, and the next ones."""
     table = _table(replay)
     rows = table.get("return_map")
     if not rows or not _fits(replay, table):
@@ -36,7 +36,7 @@ def return_map_of(replay: Replay) -> Reference | None:
 
 
 def metric_over(replay: Replay, varied: str, metric: str) -> Reference | None:
-    """Known values of a metric over a varied number; rows without one are left out."""
+    """Known values of a metric over a varied number; rows without a value are left out."""
     table = _table(replay)
     rows = [r for r in table.get("sweep", {}).get(varied, []) if r.get(metric) is not None]
     if not rows:
@@ -46,18 +46,14 @@ def metric_over(replay: Replay, varied: str, metric: str) -> Reference | None:
 
 
 def _fits(replay: Replay, table: dict[str, Any]) -> bool:
-    """Whether the model has the numbers that the table was made with."""
+    """Whether the model has the numbers for which the table was made."""
     values = dict(zip((number.address for number in replay.model.numbers), replay.model.values(), strict=True))
     wanted = table.get("with", {})
     return all(address in values and np.isclose(values[address], value) for address, value in wanted.items())
 
 
 def _table(replay: Replay) -> dict[str, Any]:
-    """The table of a model; empty if there is none.
-
-    Raises:
-        InvalidSpec: It cannot be read.
-    """
+    """The table of a model; empty if there is none."""
     folders = [replay.path.parent / "reference", Path("specs/reference"), shipped_folder().parent / "specs/reference"]
     path = next((f / f"{replay.name}.yaml" for f in folders if (f / f"{replay.name}.yaml").is_file()), None)
     if path is None:

@@ -1,4 +1,4 @@
-"""A run that is looked at: a model at one candidate, and its outcome with every signal."""
+"""Replays: a model is run once more at one candidate, with every signal."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class Replay:
     """One recorded run.
 
     Attributes:
-        label: How legends call it.
+        label: Its name in legends.
         path: The spec, or the result folder.
-        model: Started at the values that were run.
-        manifest: Of the result; empty for a spec.
-        notices: What its reader should know.
+        model: The model, started at the values of the run.
+        manifest: The manifest of a result; empty for a spec.
+        notices: Notices for the user.
     """
 
     label: str
@@ -39,12 +39,12 @@ class Replay:
 
     @property
     def name(self) -> str:
-        """The model's name."""
+        """The name of the model."""
         return self.model.name
 
     @property
     def folder(self) -> Path | None:
-        """The result folder; None if a spec was run."""
+        """The result folder; None for a spec."""
         return self.path if self.manifest else None
 
     @property
@@ -54,17 +54,17 @@ class Replay:
 
     @property
     def trajectory(self) -> Trajectory:
-        """Every signal at every instant, up to the failure if there was one; perhaps without an instant."""
+        """Every signal at every instant, up to a failure. It may be empty."""
         return self.outcome.trajectory or Trajectory(np.zeros(0), (), (), np.zeros((0, 0)))
 
     @property
     def times(self) -> NDArray[np.float64]:
-        """The instants, in seconds."""
+        """The instants, in s."""
         return self.trajectory.times
 
     @property
     def ending(self) -> str:
-        """How the run ended, in words; empty if it ran its whole time."""
+        """How the run ended, in words; empty if it completed."""
         outcome = self.outcome
         if outcome.status == "completed":
             return ""
@@ -73,12 +73,12 @@ class Replay:
 
     @property
     def reaches_end(self) -> bool:
-        """Whether the run's last instant is among those that are looked at."""
+        """Whether the last instant of the run is included."""
         last = (self.outcome.steps - 1) * self.outcome.step
         return bool(self.times.size and self.times[-1] > last - 1e-9)
 
     def between(self, begin: float | None, end: float | None) -> Replay:
-        """The same run, of which only the instants from `begin` to `end` in seconds are looked at."""
+        """The same run, restricted to the instants from `begin` to `end` in s."""
         whole = self.trajectory
         low, high = -np.inf if begin is None else begin, np.inf if end is None else end
         kept = (whole.times >= low - 1e-12) & (whole.times <= high + 1e-12)
@@ -86,12 +86,15 @@ class Replay:
         return replace(self, outcome=replace(self.outcome, trajectory=part))
 
     def counted_from(self, begin: float) -> Replay:
-        """The same instants, with time counted from `begin` in seconds; for pictures of outputs over one another."""
+        """The same instants with times relative to `begin` in s, so that runs can be drawn over one another."""
         whole = self.trajectory
         return replace(self, outcome=replace(self.outcome, trajectory=replace(whole, times=whole.times - begin)))
 
     def every(self, interval: float) -> Replay:
-        """The same run, of which one instant in `interval` seconds is looked at, the first included.
+        """The same run with fewer instants.
+
+        Args:
+            interval: The time between two instants in s; the first instant is kept.
 
         Raises:
             Usage: Unless that is a whole number of steps.
@@ -109,12 +112,19 @@ def replayed(
     duration: float | None = None,
     prepared: Callable[[Simulator], None] | None = None,
 ) -> Replay:
-    """Run a model once more, from its starts, and keep every signal; `duration` in seconds.
+    """Run a model once more from its starts, and record every signal.
 
     A run that fails is a Replay up to its failure.
 
     Args:
-        prepared: Sees the simulator before it runs.
+        model: The model.
+        path: The spec or the result folder.
+        label: Its name in legends.
+        manifest: The manifest of a result.
+        notices: Notices for the user.
+        mode: Native code ("rapid") or plain Python ("normal").
+        duration: In s; that of the model by default.
+        prepared: Is called with the simulator before it runs.
 
     Raises:
         InvalidSpec: The spec breaks a rule.
@@ -130,7 +140,7 @@ def replayed(
 
 
 def dataset(replay: Replay) -> xarray.Dataset:
-    """The signals of a run as labelled arrays, with where they come from."""
+    """The signals of a run as labelled arrays with metadata."""
     from gaitsim.exchange.labelled import labelled
 
     trajectory = replay.trajectory

@@ -1,1 +1,1 @@
-"""The report, and which figures a run has."""
+"""The report, and the list of all figures."""

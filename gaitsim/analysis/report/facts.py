@@ -1,4 +1,4 @@
-"""What a report says in words and tables: numbers, origin, parts and their sources."""
+"""The texts and tables of a report: numbers, origin, parts and their sources."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from gaitsim.results.provenance import provenance
 
 @dataclass(frozen=True)
 class Branch:
-    """A part of the model, its parameters, and the parts inside it."""
+    """A part of the model with its parameters and its inner parts."""
 
     address: str
     use: str
@@ -37,7 +37,7 @@ class Branch:
 
 
 def metrics_table(replays: Sequence[Replay]) -> Table:
-    """Every metric of every run, with its unit and what it is."""
+    """Every metric of every run, with its unit and its meaning."""
     docs = {
         name: part.type.metrics[own].doc
         for replay in replays
@@ -58,7 +58,7 @@ def metrics_table(replays: Sequence[Replay]) -> Table:
 
 
 def tuned_table(replay: Replay) -> Table | None:
-    """The free numbers: the values of this run, and what the search knows of them; None if there are none."""
+    """The tuned numbers: the values of this run, and those of the search; None if there are none."""
     if not replay.model.free:
         return None
     known = {row.address: row for row in tuned_in(replay.folder, replay.manifest)} if replay.folder else {}
@@ -76,9 +76,10 @@ def tuned_table(replay: Replay) -> Table | None:
 
 
 def study_table(replay: Replay) -> Table | None:
-    """The rows of a study: what was set, how it ended, and every metric; of draws, what became of every metric.
+    """The rows of a study: settings, how each ended, and every metric. For draws, a summary of every metric.
 
-    None if none can be read.
+    Returns:
+        The table; None if it cannot be read.
     """
     try:
         study, drawn = study_of(replay), draws_of(replay)
@@ -100,7 +101,7 @@ def study_table(replay: Replay) -> Table | None:
 
 
 def _draws_table(drawn: Drawn, units: Mapping[str, str]) -> Table:
-    """Every metric over all draws: mean, least, greatest."""
+    """Every metric over all draws: mean, minimum, maximum."""
     rows = tuple(
         (each.name, shown(each.mean), shown(each.least), shown(each.greatest), shown_unit(units[each.name]))
         for each in summaries(drawn.metrics)
@@ -109,7 +110,7 @@ def _draws_table(drawn: Drawn, units: Mapping[str, str]) -> Table:
 
 
 def origin(replay: Replay) -> list[tuple[str, str]]:
-    """Where a run comes from, as terms and what is said of them."""
+    """The origin of a run, as terms and their values."""
     manifest = replay.manifest or provenance(replay.path.parent)
     commit = manifest.get("commit")
     simulate, search = replay.model.simulate, manifest.get("search", {})
@@ -146,7 +147,7 @@ def _evaluations(manifest: Mapping[str, Any]) -> str:
 
 
 def components_table(model: Model) -> Table:
-    """Every component file that the model uses, its digest, and the sources of its numbers."""
+    """Every component file of the model, its digest, and the sources of its numbers."""
     uses: dict[str, list[str]] = {}
     sources: dict[str, dict[str, None]] = {}
     digests = {part.type.reference: part.type.digest for part in model.parts}
@@ -166,7 +167,7 @@ def components_table(model: Model) -> Table:
 
 @dataclass(frozen=True)
 class Reading:
-    """One reference as it is read: who, when, what, where."""
+    """One reference: authors, year, title, journal."""
 
     key: str
     text: str
@@ -174,7 +175,7 @@ class Reading:
 
 
 def references(replay: Replay) -> list[Reading]:
-    """The literature that the model rests on; none if a source is in no bibliography."""
+    """The literature of the model; empty if a source is not in the bibliography."""
     folders = library_folders(None if replay.folder else replay.path)
     try:
         found = citations(replay.model, read_bibliography(folders))
@@ -194,18 +195,18 @@ def _reading(entry: Citation) -> Reading:
 
 
 def _field(bibtex: str, name: str) -> str:
-    """A field of a BibTeX entry; empty if it has none."""
+    """A field of a BibTeX entry; empty if it does not exist."""
     match = re.search(rf"^\s*{name}\s*=\s*[{{\"](.*?)[}}\"],?\s*$", bibtex, re.MULTILINE | re.IGNORECASE)
     return match[1] if match else ""
 
 
 def _plain(text: str) -> str:
-    """BibTeX's text without braces and commands."""
+    """A BibTeX text without braces and commands."""
     return re.sub(r"\\(?=[&%_$#])|[{}]", "", text).replace("~", " ").replace("--", "–")
 
 
 def tree(model: Model) -> list[Branch]:
-    """The parts of a model, each inside the one that its address names."""
+    """The parts of a model as a tree, by their addresses."""
     numbers = parameter_rows(model)
     roots: list[Branch] = []
     known: dict[str, Branch] = {}
@@ -221,7 +222,7 @@ def tree(model: Model) -> list[Branch]:
 
 
 def _owner(address: str, known: Iterable[str]) -> str:
-    """The longest known address that this one is below; empty if there is none."""
+    """The longest known address that contains this one; empty if there is none."""
     pieces = address.split(".")
     above = [".".join(pieces[:i]) for i in range(len(pieces) - 1, 0, -1)]
     return next((each for each in above if each in known), "")
@@ -241,7 +242,7 @@ def _parameters(rows: Sequence[Mapping[str, Any]], owner: str) -> Table:
 
 
 def walk(branches: Sequence[Branch]) -> Iterator[Branch]:
-    """Every branch, parents first."""
+    """All branches, parents first."""
     for branch in branches:
         yield branch
         yield from walk(branch.inner)

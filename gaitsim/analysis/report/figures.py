@@ -1,4 +1,4 @@
-"""Every function that makes figures of a run, or of several over one another; each decides whether it has some."""
+"""The list of all functions that make figures. Each returns none for a run that it does not apply to."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ OVERLAYS: tuple[Callable[[Sequence[Replay]], list[Drawing]], ...] = (gait_overla
 
 
 def missing(replay: Replay) -> list[str]:
-    """Which figures a run lacks that others have, and why; words for its reader."""
+    """The figures that a run lacks, with the reasons, for the reader."""
     count = len(replay.times)
     if count < 2:
         instants = "one instant only" if count else "no instant"

@@ -1,4 +1,4 @@
-"""report.html: one page that needs nothing else: numbers, figures, video, origin, the model."""
+"""report.html: one self-contained page with numbers, figures, video, origin, and the model."""
 
 from __future__ import annotations
 
@@ -30,7 +30,14 @@ _TYPES = {".mp4": "video/mp4", ".webm": "video/webm", ".gif": "image/gif"}
 
 @dataclass(frozen=True)
 class Film:
-    """A video on the page: its address, embedded or beside the report, and whether it is a GIF."""
+    """A video on the page.
+
+    Attributes:
+        address: Its address.
+        name: Its file name.
+        embedded: Whether it is within the page, and not a file beside it.
+        moving_picture: Whether it is a GIF.
+    """
 
     address: str
     name: str
@@ -40,7 +47,7 @@ class Film:
 
 @dataclass(frozen=True)
 class Picture:
-    """A drawing on the page, in two widths."""
+    """A figure on the page, in two widths."""
 
     name: str
     title: str
@@ -56,10 +63,17 @@ def write(
     video: Path | None = None,
     remarks: Sequence[str] = (),
 ) -> Path:
-    """Write the report of one run, or of several beside each other; its path.
+    """Write the report of one run, or of several runs beside each other.
 
     Args:
-        remarks: What the reader should know, such as what could not be made.
+        path: The file.
+        replays: The runs.
+        drawings: The figures.
+        video: The video, if there is one.
+        remarks: Remarks for the reader, such as what could not be made.
+
+    Returns:
+        The path.
 
     Raises:
         OSError: The file cannot be read or written.
@@ -111,7 +125,7 @@ def _run(replay: Replay) -> Mapping[str, Any]:
 
 
 def _about(replay: Replay) -> str:
-    """What the spec says about itself; empty if it does not, or cannot be read any more."""
+    """The description in the spec; empty without one, or if it cannot be read."""
     from gaitsim.errors import GaitsimError
     from gaitsim.spec.resolve import read_spec
     from gaitsim.text.document import ScalarNode
@@ -128,7 +142,7 @@ def _picture(drawing: Drawing) -> Picture:
 
 
 def _drawn(drawing: Drawing, width: float = COLUMN) -> str:
-    """The figure at a width in inches, as a data address; the same for the same figure."""
+    """The figure at a width in inches, as a data URL. The same figure gives the same bytes."""
     import matplotlib as mpl
 
     figure = drawing.figure
@@ -148,7 +162,7 @@ def _drawn(drawing: Drawing, width: float = COLUMN) -> str:
 
 
 def _taller(width: float, own: float) -> float:
-    """Narrow figures keep their height, but for half of what they lose in width."""
+    """The height of a narrow figure: half of what it loses in width is kept in height."""
     return 0.5 + 0.5 * min(1.0, width / own)
 
 

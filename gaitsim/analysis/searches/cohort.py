@@ -1,4 +1,4 @@
-"""Figures of a cohort: how each body ended with each device, and metrics over what differs."""
+"""Figures of a cohort: how each body ended with each device, and metrics over what is varied."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ _HIGH = 0.17  # inches for a body
 
 @dataclass(frozen=True)
 class Outline:
-    """A row as it is drawn: the body's name, what is set, how it ended, and its metrics."""
+    """A row for figures: the name of the body, its settings, how it ended, and its metrics."""
 
     body: str
     settings: Mapping[str, str]
@@ -32,13 +32,13 @@ class Outline:
     metrics: Mapping[str, float]
 
     def value(self, metric: str) -> float:
-        """A metric of a row that completed; nan for any other."""
+        """A metric of a completed row; nan for any other row."""
         return self.metrics.get(metric, math.nan) if self.ending in ("completed", "retuned") else math.nan
 
 
 @dataclass(frozen=True)
 class _Grid:
-    """Bodies by devices, each row of a cohort in its place; the addresses that differ between them."""
+    """The rows of a cohort as a grid of bodies and devices, and the addresses that differ between them."""
 
     bodies: tuple[tuple[Outline, ...], ...]
     own: tuple[str, ...]
@@ -50,7 +50,11 @@ class _Grid:
 
 
 def cohort_figures(rows: Sequence[Outline], metrics: Sequence[str], units: Mapping[str, str]) -> list[Drawing]:
-    """The map of how rows ended, and a figure for each metric. rows: body by body, all with the same devices."""
+    """The map of how rows ended, and a figure for each metric.
+
+    Args:
+        rows: The rows, body by body, each with the same devices.
+    """
     grid = _grid(rows)
     return [_endings(grid), *(_metric(grid, name, units[name]) for name in metrics)]
 
@@ -87,7 +91,7 @@ def _endings(grid: _Grid) -> Drawing:
 
 
 def _metric(grid: _Grid, metric: str, unit: str) -> Drawing:
-    """A metric over the device, one line for each body; without devices, over what differs between bodies."""
+    """A metric over the device, with one line for each body; without devices, over what differs between bodies."""
     figure, (axes,) = panels(1, 1, height=3.0)
     over = [body[0] for body in grid.bodies] if not grid.varied else list(grid.devices)
     address = (grid.varied or grid.own or ("body",))[0]
@@ -107,7 +111,7 @@ def _metric(grid: _Grid, metric: str, unit: str) -> Drawing:
 
 
 def _lines(figure: Figure, axes: Axes, grid: _Grid, metric: str, at: Floats) -> None:
-    """One line for each body, coloured by the first number that differs between bodies; and their mean."""
+    """Draw one line for each body, coloured by the first number that differs between bodies, and their mean."""
     from matplotlib import colormaps
     from matplotlib.cm import ScalarMappable
     from matplotlib.colors import Normalize

@@ -1,4 +1,4 @@
-"""Figures of a search: how the scores fell, and where in their bounds the tuned numbers ended."""
+"""Figures of a search: the scores of its generations, and the tuned numbers within their bounds."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ _LABEL_SPACE = 1.25  # of the span of scores that matters, above it
 
 @dataclass(frozen=True)
 class Tuned:
-    """One row of parameters.csv, in its unit; nan where nothing is known."""
+    """One row of parameters.csv in its unit; nan for unknown values."""
 
     address: str
     unit: str
@@ -41,20 +41,20 @@ class Tuned:
     std: float
 
     def share(self, value: float) -> float:
-        """Where a value lies between the bounds: 0 at the lower, 1 at the upper one."""
+        """The position of a value between the bounds: 0 at the lower, 1 at the upper bound."""
         return (value - self.low) / (self.high - self.low)
 
 
 @dataclass(frozen=True)
 class Scores:
-    """Scores of the candidates of each generation, those that failed left out; generation 0 is the start."""
+    """The scores of the candidates of each generation, without failed ones. Generation 0 is the start."""
 
     generations: tuple[int, ...]
     scores: tuple[Floats, ...]
     failed: int
 
     def summary(self, share: float) -> Floats:
-        """A quantile of each generation's scores; nan where all failed."""
+        """A quantile of the scores of each generation; nan if all candidates failed."""
         return np.array([np.quantile(s, share) if s.size else math.nan for s in self.scores])
 
     @property
@@ -65,7 +65,7 @@ class Scores:
 
     @property
     def deviation(self) -> Floats:
-        """Standard deviation of each generation's scores."""
+        """The standard deviation of the scores of each generation."""
         return np.array([float(np.std(s)) if s.size else math.nan for s in self.scores])
 
 
@@ -78,7 +78,7 @@ def scores_of(evaluations: list[Evaluation]) -> Scores:
 
 
 def tuned_in(folder: Path, manifest: Mapping[str, Any]) -> list[Tuned]:
-    """The tuned numbers of a result, in the units of its table; none if that is missing or torn."""
+    """The tuned numbers of a result in the units of its table; empty if the table is missing or incomplete."""
     path = folder / "parameters.csv"
     if not path.is_file():
         return []
@@ -99,11 +99,7 @@ def tuned_in(folder: Path, manifest: Mapping[str, Any]) -> list[Tuned]:
 
 
 def convergence_figures(replay: Replay) -> list[Drawing]:
-    """The scores of a search; none for what is no search.
-
-    Raises:
-        DamagedJournal: The journal is damaged.
-    """
+    """The scores of a search; none for other results."""
     if replay.folder is None or replay.manifest.get("kind") != "optimize":
         return []
     evaluations = evaluations_in(replay.folder)
@@ -113,13 +109,13 @@ def convergence_figures(replay: Replay) -> list[Drawing]:
 
 
 def tuned_figures(replay: Replay) -> list[Drawing]:
-    """The tuned numbers of a search within their bounds; none for what is no search."""
+    """The tuned numbers of a search within their bounds; none for other results."""
     tuned = [t for t in tuned_in(replay.folder, replay.manifest) if t.high > t.low] if replay.folder else []
     return [_within_bounds(tuned)] if tuned else []
 
 
 def _ceiling(scores: Floats) -> float:
-    """Up to where scores are worth an axis: most of the middle ones; failures can cost a hundred times more."""
+    """The upper end of the axis of scores: most of the middle scores; failures can cost a hundred times more."""
     low, middle = float(scores.min()), float(np.quantile(scores, 0.75))
     return max(middle + _LABEL_SPACE * (middle - low), low + 1e-9 * abs(low) + 1e-12)
 
@@ -201,7 +197,7 @@ def _within_bounds(tuned: list[Tuned]) -> Drawing:
 
 
 def _bar(axes: Axes, row: int, each: Tuned, named: bool) -> None:
-    """The range of one number, with its start, best and mean."""
+    """The range of one number with its start, best value and mean."""
     axes.barh(row, 1, height=0.22, color=GREY, alpha=0.18)
     if math.isfinite(each.mean):
         low, high = (each.share(each.mean + sign * each.std) for sign in (-1, 1))

@@ -1,4 +1,4 @@
-"""Figures of draws: where each metric lies when every tuned number is a little different."""
+"""Figures of draws: the distribution of each metric when every tuned number is changed a little."""
 
 from __future__ import annotations
 
@@ -26,10 +26,10 @@ _HEIGHT = 1.15  # inches
 
 @dataclass(frozen=True)
 class Summary:
-    """One metric over draws, in its declared unit;
+    """One metric over draws, in its declared unit.
 
     Attributes:
-        count: Of the draws that have it.
+        count: The number of draws with a value.
     """
 
     name: str
@@ -41,7 +41,7 @@ class Summary:
 
 @dataclass(frozen=True)
 class Drawn:
-    """The draws that a result holds: how far and from which seed, how each ended, and its metrics (nan: none)."""
+    """The draws of a result: size and seed, how each ended, and its metrics (nan for none)."""
 
     within: float
     seed: int
@@ -54,7 +54,7 @@ class Drawn:
 
     @property
     def words(self) -> str:
-        """How many of the draws completed, and what they are."""
+        """How many draws completed, and what the draws are, in words."""
         changed = f"every tuned value changed by up to {100 * self.within:g} % (uniform, seed {self.seed})"
         return f"{self.completed} of {len(self.statuses)} draws completed; in each, {changed}"
 
@@ -63,7 +63,7 @@ class Drawn:
 
 
 def summaries(rows: Sequence[Mapping[str, float]]) -> list[Summary]:
-    """Mean, least and greatest of every metric over the rows where it is finite; nan where there are none."""
+    """Mean, minimum and maximum of every metric over the rows with a finite value; nan if there are none."""
     found = []
     for name in dict.fromkeys(name for row in rows for name in row):
         numbers = [row[name] for row in rows if math.isfinite(row.get(name, math.nan))]
@@ -75,11 +75,7 @@ def summaries(rows: Sequence[Mapping[str, float]]) -> list[Summary]:
 
 
 def drawn_in(folder: Path, manifest: Mapping[str, Any]) -> Drawn | None:
-    """The draws of a result; None if it holds something else.
-
-    Raises:
-        BadResult: The folder is not a result, or the result is damaged.
-    """
+    """The draws of a result; None for other results."""
     asked = manifest.get("draws")
     if not asked:
         return None
@@ -90,16 +86,12 @@ def drawn_in(folder: Path, manifest: Mapping[str, Any]) -> Drawn | None:
 
 
 def draws_of(replay: Replay) -> Drawn | None:
-    """The draws that a replay is one of; None if something else.
-
-    Raises:
-        BadResult: The folder is not a result, or the result is damaged.
-    """
+    """The draws that a replay belongs to; None for other runs."""
     return None if replay.folder is None else drawn_in(replay.folder, replay.manifest)
 
 
 def draws_figures(replay: Replay) -> list[Drawing]:
-    """One figure: each measure's metric of its own name, a point a draw; none for what holds no draws."""
+    """One figure with a point for each draw, for the main metric of each measure; none for other results."""
     drawn = draws_of(replay)
     if drawn is None:
         return []
@@ -122,7 +114,7 @@ def draws_figures(replay: Replay) -> list[Drawing]:
 
 
 def _strip(axes: Axes, drawn: Drawn, values: Floats) -> None:
-    """The values from left to right, each at the number of its draw."""
+    """The values from left to right by the number of the draw."""
     from matplotlib.ticker import MaxNLocator
 
     numbers, kept = np.arange(1, values.size + 1), np.array(drawn.statuses) == "completed"

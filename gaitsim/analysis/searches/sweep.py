@@ -1,4 +1,4 @@
-"""Figures of a study: every metric over what was varied, beside the values that are known."""
+"""Figures of a study: every metric over what was varied, with known values."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _LINES = 6  # a second varied number with more values than this gets no line for
 
 @dataclass(frozen=True)
 class Study:
-    """The rows of a study: what was set, as text, and the metrics, nan where there are none."""
+    """The rows of a study: settings as text, and metrics, nan where there are none."""
 
     rows: tuple[Mapping[str, str], ...]
     metrics: tuple[Mapping[str, float], ...]
@@ -43,11 +43,7 @@ class Study:
 
 
 def study_in(folder: Path) -> Study | None:
-    """The study that a result of runs holds; None if it is one run only.
-
-    Raises:
-        BadResult: The folder is not a result, or the result is damaged.
-    """
+    """The study of a result; None if the result has one run only."""
     rows = read_rows(folder)
     if len(rows) < 2:
         return None
@@ -57,11 +53,7 @@ def study_in(folder: Path) -> Study | None:
 
 
 def study_of(replay: Replay) -> Study | None:
-    """The study that a replay is a run of; None if something else.
-
-    Raises:
-        BadResult: The folder is not a result, or the result is damaged.
-    """
+    """The study that a replay belongs to; None for other runs."""
     if replay.folder is None or replay.manifest.get("kind") != "run":
         return None
     study = study_in(replay.folder)
@@ -69,7 +61,7 @@ def study_of(replay: Replay) -> Study | None:
 
 
 def places(texts: Sequence[str | None]) -> tuple[Floats, str] | None:
-    """Texts such as "2.5" or "3 ms" as numbers in the first one's unit; None if some are words."""
+    """Texts such as "2.5" or "3 ms" as numbers in the unit of the first; None if one is not a number."""
     numbers, units = [], []
     for text in texts:
         try:
@@ -86,7 +78,7 @@ def places(texts: Sequence[str | None]) -> tuple[Floats, str] | None:
 
 
 def sweep_figures(replay: Replay) -> list[Drawing]:
-    """A figure for each measure: its metrics over the varied number; none for what is no study."""
+    """A figure for each measure: its metrics over the varied number; none without a study."""
     study = study_of(replay)
     if study is None:
         return []
@@ -157,7 +149,7 @@ def _name_horizontal(axes: Axes, study: Study, across: str, at: Floats, unit: st
 
 
 def _mark_lost(axes: Axes, study: Study, at: Floats) -> None:
-    """Crosses on the lower edge where a row did not complete."""
+    """Crosses on the lower edge for rows that did not complete."""
     lost = np.array([status != "completed" for status in study.statuses])
     if lost.any():
         edge = axes.get_xaxis_transform()

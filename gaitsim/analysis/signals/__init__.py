@@ -1,1 +1,1 @@
-"""Any signal over time, over another signal, and over itself one event before."""
+"""Any signal over time, over another signal, and as a return map."""

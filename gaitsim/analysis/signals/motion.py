@@ -1,4 +1,4 @@
-"""Figures for any model: coordinates of its joints, and what its controllers say."""
+"""Figures of one run of any model: joint coordinates and signals of controllers."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ Signals = Sequence[tuple[str, str]]  # address, and unit of what was recorded
 
 
 def motion_figures(replay: Replay) -> list[Drawing]:
-    """Joint coordinates, and controllers' signals, over the last cycles or the whole run."""
+    """Joint coordinates and signals of controllers, over the last cycles or the whole run."""
     if len(replay.times) < 2:
         return []
     coordinates, sent = _outputs(replay, "joint", ("angle", "position")), _outputs(replay, "controller", ())
@@ -32,7 +32,7 @@ def motion_figures(replay: Replay) -> list[Drawing]:
 
 
 def _outputs(replay: Replay, kind: str, names: Sequence[str]) -> Signals:
-    """The outputs of parts of a kind: of these names, or all."""
+    """The outputs of parts of a kind, with these names or all."""
     return [
         (f"{part.address}.{name}", parse_unit(output.unit).si)
         for part in replay.model.parts

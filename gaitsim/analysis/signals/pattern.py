@@ -15,7 +15,7 @@ _SHOWN = 5
 
 
 class NoSuchSignal(GaitsimError):
-    """A word that names no recorded signal."""
+    """A name matches no recorded signal."""
 
     exit_code = ExitCode.USAGE
 
@@ -26,11 +26,16 @@ def is_pattern(text: str) -> bool:
 
 
 def matching(model: Model, text: str, arriving: bool = False) -> list[Signal]:
-    """The signals of an address or a pattern, in the order of the model; `*` also goes over dots.
+    """Find signals.
 
     Args:
-        arriving: Also inputs, which are not recorded but follow from what is; a pattern means them only if it names
-            them, as 'leg_*.soleus.excitation' does.
+        model: The model.
+        text: An address or a pattern; `*` also matches dots.
+        arriving: Whether to search inputs too, which are computed from recorded signals. A pattern matches them only if
+            it names them, as 'leg_*.soleus.excitation' does.
+
+    Returns:
+        The signals in the order of the model.
 
     Raises:
         NoSuchSignal: Which offers what is nearest.
@@ -50,7 +55,7 @@ def matching(model: Model, text: str, arriving: bool = False) -> list[Signal]:
 
 
 def _inputs(model: Model) -> tuple[Signal, ...]:
-    """What arrives at the inputs of parts, in SI; a measure's are what others send."""
+    """The inputs of parts, in SI; those of a measure are the outputs that it receives."""
     return tuple(
         Signal(f"{part.address}.{name}", parse_unit(port.unit).si, port.doc)
         for part in model.parts
@@ -61,7 +66,7 @@ def _inputs(model: Model) -> tuple[Signal, ...]:
 
 
 def _missing(model: Model, text: str, known: Sequence[str]) -> str:
-    """Why an address is no signal, and what to write."""
+    """Why an address is not a signal, and what to write."""
     inside = [address for address in known if address.startswith(f"{text}.")]
     if inside:
         return f"this is a part; its signals are {_listed(inside)}; or write '{text}.*'"
@@ -82,7 +87,7 @@ def _missing(model: Model, text: str, known: Sequence[str]) -> str:
 
 
 def _nearest(text: str, known: Sequence[str]) -> list[str]:
-    """Addresses that were probably meant: of the same last word, of the same part, or spelt alike."""
+    """Similar addresses: with the same last word, of the same part, or with similar spelling."""
     word, owner = text.rpartition(".")[2], text.rpartition(".")[0]
     same = [a for a in known if a.rpartition(".")[2] == word or (owner and a.rpartition(".")[0] == owner)]
     alike = difflib.get_close_matches(text, known, n=_SHOWN, cutoff=0.5)

@@ -1,4 +1,4 @@
-"""Any signal against time or another signal, and as a return map; several runs over each other."""
+"""Figures of any signal over time, over another signal, and as a return map; several runs over one another."""
 
 from __future__ import annotations
 
@@ -39,15 +39,20 @@ _OVERVIEW = {  # name of the file: title, kinds of the parts, names of their sig
 
 
 class TooFewEvents(GaitsimError):
-    """A run with too few events for a return map."""
+    """A run has too few events for a return map."""
 
     exit_code = ExitCode.USAGE
 
 
 def against_time(replays: Sequence[Replay], text: str) -> list[Drawing]:
-    """The signals of an address or pattern over time; several figures if they are many.
+    """Signals over time, in several figures if they are many.
 
-    One run: signals of one unit share a panel. Several: a panel for each signal, a line for each run.
+    For one run, signals with the same unit share a panel. For several runs, there is a panel for each signal and a line
+    for each run.
+
+    Args:
+        replays: The runs.
+        text: An address or a pattern.
 
     Raises:
         NoSuchSignal: No run has such a signal.
@@ -56,9 +61,10 @@ def against_time(replays: Sequence[Replay], text: str) -> list[Drawing]:
 
 
 def signal_overlays(replays: Sequence[Replay]) -> list[Drawing]:
-    """Coordinates, ground forces, muscles and controllers of any model, over time; of walkers, only the first and last.
+    """Joint coordinates, ground forces, muscles and controllers of several runs, over time; of walkers, only the
+    first and last.
 
-    Runs that all completed and have cycles are drawn over their last ones, from touchdown on.
+    Completed runs with cycles are drawn over their last cycles, from touchdown on.
     """
     drawn, said = _last_cycles(replays)
     walking = all(two_legs(replay) for replay in replays)
@@ -77,7 +83,7 @@ def signal_overlays(replays: Sequence[Replay]) -> list[Drawing]:
 
 
 def _last_cycles(replays: Sequence[Replay]) -> tuple[Sequence[Replay], str]:
-    """Runs whose time begins at a touchdown, and words for that; the whole runs unless all have cycles."""
+    """Runs with times from a touchdown, and words for that; the whole runs unless all have cycles."""
     spans = [last_cycles(replay, _CYCLES) if replay.outcome.status == "completed" else None for replay in replays]
     parts = [replay.between(*span) for replay, span in zip(replays, spans, strict=True) if span]
     if len(parts) < len(replays):
@@ -109,7 +115,12 @@ def _pages(
 
 
 def against_signal(replays: Sequence[Replay], text: str, other: str) -> list[Drawing]:
-    """The signals of an address or pattern over another signal, in the order of time.
+    """Signals over another signal, in the order of time.
+
+    Args:
+        replays: The runs.
+        text: An address or a pattern.
+        other: The signal on the horizontal axis.
 
     Raises:
         NoSuchSignal: No run has such a signal.
@@ -137,10 +148,11 @@ def against_signal(replays: Sequence[Replay], text: str, other: str) -> list[Dra
 
 
 def return_map(replays: Sequence[Replay], text: str) -> Drawing:
-    """Each local maximum of a signal over the one before, with the diagonal and the fixed point.
+    """Each local maximum of a signal over the previous one, with the diagonal and the fixed point.
 
     Args:
-        text: A signal, or a measure, which stands for the signal that it watches.
+        replays: The runs.
+        text: A signal, or a measure, which stands for the signal that it observes.
 
     Raises:
         NoSuchSignal: No run has such a signal.
@@ -176,7 +188,7 @@ def return_map(replays: Sequence[Replay], text: str) -> Drawing:
 
 
 def _watched(replays: Sequence[Replay], text: str) -> str:
-    """The signal that a measure of this address watches; else the text itself."""
+    """The signal that a measure observes; the text itself if it is not a measure."""
     for replay in replays:
         part = next((p for p in replay.model.parts if p.address == text and p.measure), None)
         wired = (c.sender for c in replay.model.connections if part and c.target.rpartition(".")[0] == text)
@@ -193,7 +205,7 @@ def _has(replay: Replay, signal: Signal) -> bool:
 
 
 def _values(replay: Replay, signal: Signal) -> Floats:
-    """What was recorded of a signal, or what arrived at an input."""
+    """The recorded values of a signal, or the values of an input."""
     if signal.address in replay.trajectory.signals:
         return replay.trajectory[signal.address]
     return arriving(replay, signal.address)
@@ -225,7 +237,7 @@ def _fixed_words(found: FixedPoint | None, unit: str) -> str:
 
 
 def _square(axes: Axes, events: Floats) -> None:
-    """Equal axes with the diagonal, not narrower than the numbers are sure."""
+    """Equal axes with the diagonal, not narrower than the accuracy of the numbers."""
     low, high = float(events.min()), float(events.max())
     margin = max(0.08 * (high - low), 1e-3 * max(abs(low), abs(high)))
     limits = (low - margin, high + margin)
@@ -287,7 +299,7 @@ def _by_unit(signals: Sequence[Signal]) -> Iterator[list[Signal]]:
 
 
 def _lines(replays: Sequence[Replay], group: Sequence[Signal]) -> Iterator[tuple[dict[str, Any], Replay, Signal]]:
-    """The lines of a panel: colours tell signals of one run, or several runs, apart."""
+    """The lines of a panel. Colours distinguish the signals of one run, or several runs."""
     for r, replay in enumerate(replays):
         for s, signal in enumerate(group):
             if _has(replay, signal):
@@ -311,7 +323,7 @@ def _label(replays: Sequence[Replay], replay: Replay, signal: Signal) -> str:
 
 
 def _owner(group: Sequence[Signal]) -> str:
-    """The part that all signals of a panel belong to, with its dot; empty if there is none."""
+    """The part of all signals in a panel, with a dot at its end; empty if they belong to several."""
     owners = {signal.address.rpartition(".")[0] for signal in group}
     return f"{owners.pop()}." if len(owners) == 1 else ""
 
@@ -343,7 +355,7 @@ def _name_vertical(axes: Axes, replays: Sequence[Replay], group: Sequence[Signal
 
 
 def _wrapped(name: str) -> list[str]:
-    """An address in pieces that fit a panel's side, broken behind its dots."""
+    """An address in pieces that fit the height of a panel, divided after dots."""
     lines = [""]
     for piece in re.findall(r"[^. ]+[. ]?", name):
         if lines[-1] and len(lines[-1]) + len(piece) > 24:
@@ -353,7 +365,7 @@ def _wrapped(name: str) -> list[str]:
 
 
 def _finish(figure: Figure, first: Axes, replays: Sequence[Replay], title: str) -> None:
-    """Heading with how runs ended, and one legend for several runs."""
+    """Add a heading that says how runs ended, and one legend for several runs."""
     if len(replays) == 1:
         title = f"{title}, {replays[0].label}"
     endings = [f"{replay.label} {replay.ending}" for replay in replays if replay.ending]

@@ -1,4 +1,4 @@
-"""From one event to the next: maxima of a signal, and where their return map stands still."""
+"""Return maps: the maxima of a signal, and the fixed point of the map from one to the next."""
 
 from __future__ import annotations
 
@@ -15,10 +15,11 @@ _CLEAR = 5e-5  # of the events' size: a maximum is known to a time step only
 
 @dataclass(frozen=True)
 class FixedPoint:
-    """A value that returns to itself, and the slope of the map there: below 1 in size, it is stable.
+    """A value that returns to itself, and the slope of the map there. It is stable if the slope is below 1 in
+    magnitude.
 
     Attributes:
-        slope: None if the events are too close to the value, from the first on, to tell.
+        slope: None if the events are too close to the value to estimate it.
     """
 
     value: float
@@ -26,11 +27,12 @@ class FixedPoint:
 
 
 def maxima(values: Floats, prominence: float = PROMINENCE) -> NDArray[np.int64]:
-    """The places of the local maxima that rise above what is before and behind them.
+    """The indices of the local maxima that rise above their surroundings.
 
     Args:
-        prominence: How far, as a fraction of the signal's range. The first and the last instant are no maxima, as their
-            other side is not known.
+        values: The signal.
+        prominence: The smallest rise, as a fraction of the signal's range. The first and the last instant do not count,
+            because their other side is unknown.
     """
     if values.size < 3 or not np.isfinite(values).all():
         return np.zeros(0, dtype=np.int64)
@@ -54,7 +56,7 @@ def maxima(values: Floats, prominence: float = PROMINENCE) -> NDArray[np.int64]:
 
 
 def _turns(values: Floats) -> list[int]:
-    """Where a signal turns, with its ends: all that a search for extremes must look at."""
+    """The indices at which a signal turns, and its ends; a search for extremes needs no others."""
     steps = np.sign(np.diff(values))
     moving = np.flatnonzero(steps)
     if not moving.size:
@@ -64,10 +66,10 @@ def _turns(values: Floats) -> list[int]:
 
 
 def fixed_point(events: Floats) -> FixedPoint | None:
-    """Where the map from one event to the next meets the diagonal; None if the events do not say.
+    """The fixed point of the map from one event to the next; None if the events do not show one.
 
-    If they settle, it is where they do or will do, and the slope is that of the last steps on the way there.
-    Else it is where two neighbouring points of the map lie on either side of the diagonal.
+    If the events converge, it is their limit, and the slope is that of the last steps towards it. Otherwise it lies
+    between two neighbouring points of the map on different sides of the diagonal.
     """
     if events.size < 3:
         return None
@@ -89,17 +91,19 @@ def fixed_point(events: Floats) -> FixedPoint | None:
 
 
 def fixed_between(x: Floats, above: Floats, i: int) -> FixedPoint:
-    """Where the line through points i and i + 1 of a map meets the diagonal;
+    """The intersection of the line through points i and i + 1 of a map with the diagonal.
 
     Args:
-        above: Their heights over it.
+        x: The abscissas.
+        above: The heights above the diagonal.
+        i: The index of the first point.
     """
     rise = float((above[i + 1] - above[i]) / (x[i + 1] - x[i]))
     return FixedPoint(float(x[i] - above[i] / rise), 1 + rise)
 
 
 def _approach(events: Floats, scale: float) -> float | None:
-    """By how much a step shrinks from one event to the next, of the last steps that are clear."""
+    """The factor by which a step shrinks from one event to the next, from the last steps that are well resolved."""
     steps = np.diff(events)
     clear = np.abs(steps) > _CLEAR * scale
     usable = np.flatnonzero(clear[:-1] & clear[1:])[-2:]
