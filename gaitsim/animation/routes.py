@@ -77,8 +77,8 @@ class Drawer:
         """Prepare drawing.
 
         Args:
-            spec: The model to draw into.
-            before: How it was compiled before.
+            spec: MuJoCo's mjSpec to draw into.
+            mechanics: How the model was compiled before.
         """
         self.spec, self.mechanics, self.data = spec, mechanics, mujoco.MjData(mechanics)
         mujoco.mj_kinematics(mechanics, self.data)

@@ -31,7 +31,7 @@ _TOLD = 20  # runs that the README lists
 
 
 class Record:
-    """A result folder that begins with its first run. What was written of it stays, whatever comes after.
+    """A result folder that is created with its first run. Runs that were saved stay, whatever follows.
 
     Args:
         model: The first one that is run.
@@ -78,7 +78,16 @@ class Record:
             raise self._cannot(error) from error
 
     def add(self, settings: Mapping[str, str], outcome: Outcome, told: Mapping[str, Any] | None = None) -> None:
-        """Keep one run more, and what else is told of it. Errors: CannotSave, with the runs before it as they were."""
+        """Save one run, with further data.
+
+        Args:
+            settings: What the run sets, as text by address.
+            outcome: Its outcome.
+            told: Further data of its row.
+
+        Raises:
+            CannotSave: The folder cannot be written. The runs before are unchanged.
+        """
         row = row_data(settings, outcome) | dict(told or {})
         if self._draws:
             row |= {"draw": len(self._rows) + 1, "values": self._drawn[len(self._rows)]}
@@ -92,7 +101,14 @@ class Record:
         self._rows.append(row)
 
     def arrange(self, place: Callable[[Mapping[str, Any]], int]) -> None:
-        """Put the runs in the order of their places. Errors: CannotSave."""
+        """Sort the runs.
+
+        Args:
+            place: The position of a run, from its row.
+
+        Raises:
+            CannotSave: The folder cannot be written.
+        """
         if self.folder is None:
             return
         self._rows.sort(key=place)

@@ -24,8 +24,8 @@ def run_all(
         mode: Native code ("rapid") or plain Python ("normal").
         prepared: Is called with each simulator before any model runs.
 
-    Yields:
-        One outcome for each model, in their order.
+    Returns:
+        An iterator over the outcomes, in the order of the models.
 
     Raises:
         InvalidSpec: A model cannot be prepared.
@@ -39,15 +39,15 @@ def run_all(
 def run_each(
     models: Sequence[Model | Invalid], mode: Mode, prepared: Callable[[Simulator], None] | None = None
 ) -> Iterator[Outcome]:
-    """Like `run_all`, for models of which some may be invalid. An invalid model yields a failed outcome.
+    """Like `run_all`, for models of which some may be invalid. An invalid model has a failed outcome.
 
     Args:
         models: Models, or the error of an invalid one.
         mode: See `run_all`.
         prepared: See `run_all`.
 
-    Yields:
-        One outcome for each model, in their order.
+    Returns:
+        An iterator over the outcomes, in the order of the models.
 
     Raises:
         InvalidSpec: No model can run; the first error is raised.
