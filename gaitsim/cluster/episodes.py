@@ -72,20 +72,22 @@ def bundle_episodes(bundle: Bundle, mode: Mode) -> Episodes:
         BadResult: The tuned values of the bundle cannot be read.
     """
     document, starts = bundle.document(), bundle.starts()
-    models = [model.started_at(starts) for model in episode_models(document, bundle.library(), bundle.name)]
-    return Episodes(tuple(Simulator(model, mode) for model in models), optimize_section(document).combine)
+    library, name = bundle.library(), bundle.name
+    models = episode_models(document, library, name) or [resolve(document, library, name)]
+    simulators = tuple(Simulator(model.started_at(starts), mode) for model in models)
+    return Episodes(simulators, optimize_section(document).combine)
 
 
 def episode_models(document: MappingNode, library: Library, name: str) -> list[Model]:
-    """The model of each episode; the model of the spec if it has no episodes.
+    """The model of each episode; none if the spec has no episodes.
 
     Raises:
         InvalidSpec: The spec breaks a rule, or an episode changes what is tuned.
     """
     rows = episodes(document)
-    models = [resolve(row.document, library, name) for row in rows]
     if not rows[0].settings and len(rows) == 1:
-        return models
+        return []
+    models = [resolve(row.document, library, name) for row in rows]
     faults, tuned = Faults(), resolve(document, library, name).free
     for i, (row, model) in enumerate(zip(rows, models, strict=True)):
         change = _change(tuned, model.free)

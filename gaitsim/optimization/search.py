@@ -5,7 +5,7 @@ replaying.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
@@ -84,35 +84,42 @@ class Search:
             DamagedJournal: The journal does not fit the search. Errors of the evaluator are raised too.
         """
         progress = self.progress
-        self._evaluated(0, [tuple(self.problem.start)])
+        # The first generation does not depend on the start, which alone would leave all workers but one idle.
+        start = [Candidate(0, 0, tuple(self.problem.start))]
         while not progress.stop:
             if progress.generation >= generations:
                 progress.stop = f"{generations} generations done"
                 break
             vectors = self.algorithm.ask()
-            values = [tuple(self.problem.values(vector)) for vector in vectors]
-            evaluations = self._evaluated(progress.generation + 1, values)
+            number = progress.generation + 1
+            asked = [Candidate(number, i, tuple(self.problem.values(vector))) for i, vector in enumerate(vectors)]
+            evaluations = self._evaluated(start, asked) if number == 1 else self._evaluated(asked)
             self.algorithm.tell(vectors, [e.cost for e in evaluations])
             progress.stop = self.algorithm.stop() or ""
         self._close_last()
         return progress
 
-    def _evaluated(self, generation: int, values: Iterable[tuple[float, ...]]) -> list[Evaluation]:
-        """All evaluations of one generation in order, from the journal or new."""
-        candidates = [Candidate(generation, i, x) for i, x in enumerate(values)]
-        found = self.journal.known(candidates)
+    def _evaluated(self, *generations: Sequence[Candidate]) -> list[Evaluation]:
+        """All evaluations of the last of some generations, in order: from the journal, or made now, all at once."""
+        found: dict[Candidate, Evaluation] = {}
+        for candidates in generations:
+            known = self.journal.known(candidates)
+            found |= {each: known[each.index] for each in candidates if each.index in known}
+        candidates = [each for generation in generations for each in generation]
         self.progress.asked, self.progress.arrived = len(candidates), len(found)
-        new = self.evaluator([c for c in candidates if c.index not in found])
-        self._close_last()  # while the workers are at this one
+        new = self.evaluator([each for each in candidates if each not in found])
+        self._close_last()  # while the workers are at these
         for evaluation, seconds, where in new:
             self.journal.arrived(evaluation)
             self.took(evaluation.candidate, seconds, where)
-            found[evaluation.candidate.index] = evaluation
+            found[evaluation.candidate] = evaluation
             self.progress.arrived += 1
             self.progress.evaluated_now += 1
             self.watch(self.progress)
-        evaluations = [found[c.index] for c in candidates]
-        self._count(generation, evaluations)
+        for generation in generations:
+            self._close_last()
+            evaluations = [found[each] for each in generation]
+            self._count(generation[0].generation, evaluations)
         return evaluations
 
     def _close_last(self) -> None:

@@ -9,8 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from gaitsim.model import Model
 from gaitsim.optimization.combination import combined
+from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.study import episodes
+from gaitsim.study import searches
 from gaitsim.text.document import parse
 
 from .searches import SPEC, Ended, Study
@@ -95,6 +98,24 @@ def test_a_search_scores_every_episode(tmp_path: Path, combine: str, of: object)
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("text", "count"), [(_EPISODES, 1 + 3), ("optimize: {population: 2}\n", 1)], ids=["3", "none"])
+def test_a_search_looks_at_its_model_and_at_each_episode_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str, count: int
+) -> None:
+    made, prepared = [], searches.Simulator
+
+    def counted(model: Model, mode: Mode) -> Simulator:
+        made.append(model)
+        return prepared(model, mode)
+
+    monkeypatch.setattr(searches, "Simulator", counted)
+    study = written(tmp_path)
+    spec = (tmp_path / "spec.yaml").read_text().partition("optimize:")[0] + text.replace("COMBINE", "mean")
+    (tmp_path / "spec.yaml").write_text(spec)
+    assert study.optimize("--workers", "0", "--generations", "1").code == 0
+    assert len(made) == count
+
+
 def test_workers_find_the_same_and_a_result_verifies(tmp_path: Path) -> None:
     serial, parallel = written(tmp_path / "a"), written(tmp_path / "b")
     assert serial.optimize("--workers", "0").code == 0

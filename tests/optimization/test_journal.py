@@ -111,6 +111,19 @@ def test_a_journal_is_the_same_in_any_order_of_arrival(tmp_path: Path, undisturb
     assert files(tmp_path) == undisturbed
 
 
+def test_the_start_is_evaluated_together_with_the_first_generation(tmp_path: Path) -> None:
+    """Alone it would leave all workers but one idle, and the first generation does not depend on it."""
+    calls: list[set[int]] = []
+
+    class Watched(Evaluate):
+        def __call__(self, candidates: Any) -> Iterator[Found]:
+            calls.append({candidate.generation for candidate in candidates})
+            return super().__call__(candidates)
+
+    search(tmp_path, Watched())
+    assert calls == [{0, 1}, {2}, {3}, {4}]
+
+
 def test_a_longer_budget_continues_as_a_longer_search(tmp_path: Path) -> None:
     search(tmp_path / "long", Evaluate(), 7)
     search(tmp_path / "short", Evaluate(), 3)
