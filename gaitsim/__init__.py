@@ -10,14 +10,32 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from gaitsim.study.notebook import analyze, check, cycle, limit, optimize, run
+    from gaitsim.study.notebook import analyze, check, optimize, run
     from gaitsim.study.notebook_cohort import cohort
+    from gaitsim.study.notebook_limits import cycle, limit
+    from gaitsim.study.notebook_results import compare, export_result, import_result
     from gaitsim.study.result import load
 
 __version__ = "0.1.0"
-__all__ = ["__version__", "analyze", "check", "cohort", "cycle", "limit", "load", "optimize", "run"]
+__all__ = [
+    "__version__",
+    "analyze",
+    "check",
+    "cohort",
+    "compare",
+    "cycle",
+    "export_result",
+    "import_result",
+    "limit",
+    "load",
+    "optimize",
+    "run",
+]
 
-_HOMES = dict.fromkeys(("analyze", "check", "cycle", "limit", "optimize", "run"), "gaitsim.study.notebook") | {
+_HOMES = {
+    **dict.fromkeys(("analyze", "check", "optimize", "run"), "gaitsim.study.notebook"),
+    **dict.fromkeys(("cycle", "limit"), "gaitsim.study.notebook_limits"),
+    **dict.fromkeys(("compare", "export_result", "import_result"), "gaitsim.study.notebook_results"),
     "cohort": "gaitsim.study.notebook_cohort",
     "load": "gaitsim.study.result",
 }

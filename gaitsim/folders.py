@@ -43,6 +43,11 @@ def results_folder(said: Path | None = None) -> Path:
     return said if said is not None else Path(os.environ.get("GAITSIM_RESULTS") or "results")
 
 
+def analysis_folder(said: Path | None = None) -> Path:
+    """Where what is drawn of specs goes: analysis in the folder of the results, if one was said; else analysis here."""
+    return (results_folder(said) if said is not None or os.environ.get("GAITSIM_RESULTS") else Path()) / "analysis"
+
+
 def _below(variable: str, usual: str) -> Path | None:
     """The folder of gaitsim by the XDG base directory specification, which does not allow relative paths."""
     said = Path(os.environ.get(variable, ""))

@@ -9,14 +9,11 @@ import typer
 
 from gaitsim.cli import console
 from gaitsim.cli.options import Json, Libraries, ModeName, Results, Set, Spec, Trust, opening
-from gaitsim.errors import Usage, command
+from gaitsim.errors import command
 from gaitsim.folders import results_folder
 
 if TYPE_CHECKING:
-    from gaitsim.simulation.run import Mode
     from gaitsim.study.limits import Hunt, Limit
-    from gaitsim.study.listening import Listener
-    from gaitsim.study.opening import Opening
 
 
 def limit(
@@ -67,12 +64,12 @@ def limit(
 
     gaitsim limit results/2026-11-22-walking_geyer2010_perturbed-3f9c --resume
     """
+    from gaitsim.study.begun_limits import begun_or_resumed
+
     opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
-    talk, asked = console.Talk(json), {"vary": vary, "until": until, "tolerance": tolerance, "points": points}
-    if resume:
-        hunt = _resumed(opened, {**asked, "mode": mode, "from": origin}, no_save, talk)
-    else:
-        hunt = _begun(opened, asked, origin, mode, None if no_save else results_folder(results), talk)
+    talk = console.Talk(json)
+    asked = {"vary": vary, "until": until, "tolerance": tolerance, "points": points, "mode": mode, "from": origin}
+    hunt = begun_or_resumed(opened, asked, resume, None if no_save else results_folder(results), talk)
     try:
         hunt.run(talk)
     except KeyboardInterrupt:
@@ -81,28 +78,6 @@ def limit(
         raise
     _report(hunt, hunt.folder, json)
     return console.code_after(hunt.keeping.error, 0)
-
-
-def _begun(
-    opened: Opening, asked: dict[str, Any], origin: str | None, mode: ModeName | None, root: Path | None, talk: Listener
-) -> Hunt:
-    from gaitsim.study.limits import Scan, hunted
-
-    if not asked["vary"]:
-        rule = "nothing says what is varied; add a range, such as --vary push.strength='0 N:1000 N'"
-        raise Usage(f"{rule}, or --resume a result.")
-    scan = Scan(**{name: asked[name] for name in ("points", "tolerance") if asked[name] is not None})
-    said: Mode = "normal" if mode == ModeName.normal else "rapid"
-    return hunted(opened, asked["vary"], asked["until"], scan, origin, said, root, talk)
-
-
-def _resumed(opened: Opening, asked: dict[str, Any], no_save: bool, talk: Listener) -> Hunt:
-    from gaitsim.study.limits import resumed
-
-    said = next((name for name, value in asked.items() if value is not None), "no-save" if no_save else None)
-    if said:
-        raise Usage(f"--{said} begins new limits, and --resume continues old ones; leave one out.")
-    return resumed(opened, talk)
 
 
 def _report(hunt: Hunt, folder: Path | None, json: bool) -> None:

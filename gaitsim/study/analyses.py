@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gaitsim.errors import GaitsimError, SimulationFailed, Usage
+from gaitsim.folders import analysis_folder
 from gaitsim.study.products import Products, default_figures
 from gaitsim.study.times import seconds_of
 
@@ -97,7 +98,7 @@ def analyzed(openings: Sequence[Opening], candidates: Sequence[str], wanted: Wan
     spacing = seconds_of("--every", wanted.every)
     products = Products(Path(), listener=listener)
     runs = _opened(openings, candidates, products)
-    products.folder = writable(wanted.folder or _default_folder(runs))
+    products.folder = writable(wanted.folder or _default_folder(runs, openings[0].results))
     with listener.waiting("running again"):
         replays = _replayed(runs, window, products)
     against = [wanted.against] if wanted.against else []
@@ -217,10 +218,10 @@ def _say_lacking(replays: list[Replay], words: Sequence[str], listener: Listener
             listener.say(f"{text}: {', '.join(without)} has no such signal")
 
 
-def _default_folder(runs: list[tuple[Path, str, Opened]]) -> Path:
-    """The output folder: inside the result, or analysis/ for a spec. A comparison has a folder of its own in it."""
+def _default_folder(runs: list[tuple[Path, str, Opened]], results: Path | None) -> Path:
+    """The output folder: inside the result, or for a spec in `analysis_folder`. A comparison has its own in it."""
     path, _, opened = runs[0]
-    own = path if opened.manifest else Path("analysis") / opened.name
+    own = path if opened.manifest else analysis_folder(results) / opened.name
     return own if len(runs) == 1 else own / "comparison"
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gaitsim.folders import analysis_folder
 from gaitsim.results.difference import Change, code_changes, making_changes, model_changes, ordered
 from gaitsim.study.products import Products, overlaid_figures
 from gaitsim.study.replays import replay_of
@@ -122,7 +123,7 @@ def _changes(both: Sequence[Opened]) -> list[Change]:
 
 
 def _folder(second: Opening, other: str) -> Path:
-    own = second.path if second.names_result else Path("analysis") / second.path.stem
+    own = second.path if second.names_result else analysis_folder(second.results) / second.path.stem
     return own / f"comparison-with-{other.replace('/', '_')}"
 
 

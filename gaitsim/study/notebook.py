@@ -22,8 +22,6 @@ if TYPE_CHECKING:
     from gaitsim.simulation.run import Mode
     from gaitsim.study.adoption import Adoption
     from gaitsim.study.analyses import Analysis
-    from gaitsim.study.cycles import Cycle
-    from gaitsim.study.limits import Hunt
     from gaitsim.study.runs import Runs
     from gaitsim.study.soundness import Soundness
     from gaitsim.study.tuning import Tuning
@@ -114,90 +112,6 @@ def run(
     if runs.unsaved:
         Logged().say_error(runs.unsaved)
     return runs
-
-
-def limit(
-    path: File,
-    vary: Mapping[str, str],
-    set: Settings | None = None,
-    *,
-    until: str | None = None,
-    tolerance: float = 0.01,
-    points: int = 9,
-    mode: Mode = "rapid",
-    save: bool = True,
-    results: File | None = None,
-    origin: str | None = None,
-    candidate: str | None = None,
-    start: bool = False,
-    trust: bool = False,
-    library: Sequence[File] = (),
-) -> Hunt:
-    """Find how far numbers can be varied before a run fails, each number alone.
-
-    Args:
-        path: A spec, or a result folder.
-        vary: Ranges by address; the first end must succeed: `{"push.strength": "0 N:1000 N"}`.
-        set: Values by address.
-        until: METRIC=VALUE that ends a range; None for a run that does not complete.
-        tolerance: The precision, as a share of the range.
-        points: The number of values in the scan, both ends included.
-        mode: "rapid" or "normal".
-        save: Whether to save a result folder.
-        results: The folder of results, in which names are looked up too; None for $GAITSIM_RESULTS, or else results.
-        origin: A result whose best values are the start, as for `--from`.
-        candidate: The candidate of a result.
-        start: Whether to ignore tuned values beside the spec.
-        trust: Whether to run components of a result that this machine does not know.
-        library: Folders of more components.
-
-    Returns:
-        The limits: `limits`, each with `address`, `last` (succeeds), `first` (fails; None if all succeed) and `beyond`;
-            `rows` has
-        every run.
-    """
-    from gaitsim.study.limits import Scan, hunted
-
-    opened = opening(path, set, library, start, trust, candidate, results)
-    ranges = [f"{address}={ends}" for address, ends in vary.items()]
-    root = _root(results) if save else None
-    hunt = hunted(opened, ranges, until, Scan(points, tolerance), origin, mode, root, Logged())
-    hunt.run(Logged())
-    if hunt.keeping.error:
-        raise hunt.keeping.error
-    return hunt
-
-
-def cycle(
-    path: File,
-    set: Settings | None = None,
-    *,
-    mode: Mode = "rapid",
-    results: File | None = None,
-    candidate: str | None = None,
-    start: bool = False,
-    trust: bool = False,
-    library: Sequence[File] = (),
-) -> Cycle:
-    """Find the periodic gait of a model near its start, and the eigenvalues of its return map.
-
-    Args:
-        path: A spec, or a result folder.
-        set: Values by address.
-        mode: "rapid" or "normal".
-        results: The folder in which names of results are looked up; None for $GAITSIM_RESULTS, or else results.
-        candidate: The candidate of a result.
-        start: Whether to ignore tuned values beside the spec.
-        trust: Whether to run components of a result that this machine does not know.
-        library: Folders of more components.
-
-    Returns:
-        The gait: `start`, `period`, `metrics`, `eigenvalues`, `slopes` and `stable`.
-    """
-    from gaitsim.study.cycles import cycle as found
-
-    log = Logged()
-    return found(opening(path, set, library, start, trust, candidate, results), mode, log, log.progress(""))
 
 
 @dataclass(frozen=True)
@@ -305,6 +219,7 @@ def analyze(
     start: bool = False,
     trust: bool = False,
     library: Sequence[File] = (),
+    results: File | None = None,
     **wanted: Any,
 ) -> Analysis:
     """Run results or specs once more with every signal, and make figures, films and files.
@@ -316,6 +231,7 @@ def analyze(
         start: Whether to ignore tuned values beside a spec.
         trust: Whether to run components of a result that this machine does not know.
         library: Folders of more components.
+        results: The folder in which names of results are looked up; what is made of specs goes to `analysis` in it.
         wanted: Fields of `gaitsim.study.analyses.Wanted`: `plot=("*.force",)`, `export=("sto",)`, `only=True` for
             nothing else, `folder`.
 
@@ -326,7 +242,7 @@ def analyze(
 
     many = {name: _several(value) for name, value in wanted.items() if name in _MANY}
     folder = {"folder": Path(wanted["folder"])} if wanted.get("folder") is not None else {}
-    opened = [opening(path, set, library, start, trust) for path in paths]
+    opened = [opening(path, set, library, start, trust, results=results) for path in paths]
     return analyzed(opened, _several(candidate), Wanted(**(wanted | many | folder)), Logged())
 
 

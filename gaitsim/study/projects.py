@@ -70,6 +70,9 @@ Begun by {author} on {day} from {where}.
     gaitsim library new controller my_reflex       # a component of your own
     gaitsim optimize {name}.yaml --generations 2   # a brief search
 
+A search starts at the values that `{name}.yaml` itself has. `--from tuned` starts it at those in `{name}.tuned.yaml`,
+which `run` and `analyze` use.
+
 What differs from the beginning, in the model and in its gait:
 
     gaitsim results compare {compared} results/RESULT

@@ -155,3 +155,41 @@ def test_a_doubtful_start_is_logged(spec: Path, caplog: pytest.LogCaptureFixture
     made = gaitsim.run(spec, save=False)
     assert len(made.warnings) == 1 and "ground.height" in made.warnings[0]
     assert [f"gaitsim: {each}" for each in (*made.notices, *made.warnings)] == caplog.messages
+
+
+def test_limits_go_on_as_the_command_does(spec: Path) -> None:
+    ranges = {"simulate.gravity": "1 m/s^2:100 m/s^2"}
+    hunt = gaitsim.limit(spec, ranges, {HEIGHT: "2 m"}, tolerance=0.1, points=3)
+    assert hunt.folder is not None
+    again = gaitsim.limit(hunt.folder, resume=True)
+    assert [limit.last for limit in again.limits] == [limit.last for limit in hunt.limits]
+    with pytest.raises(Usage, match="--until begins new limits, and --resume continues old ones"):
+        gaitsim.limit(hunt.folder, resume=True, until="way=1")
+    with pytest.raises(Usage, match="nothing says what is varied"):
+        gaitsim.limit(spec)
+
+
+def test_results_are_compared_and_exchanged(spec: Path) -> None:
+    first, second = (gaitsim.run(spec, {"simulate.duration": time}) for time in ("0.2 s", "0.1 s"))
+    assert first.folder is not None and second.folder is not None
+    compared = gaitsim.compare(first.folder, second.folder, figures=False)
+    assert [(change.where, change.first, change.second) for change in compared.changes] == [
+        ("duration", "0.2 s", "0.1 s")
+    ]
+    assert {pair.name for pair in compared.metrics} >= {"way"} and not compared.products.figures
+    file = gaitsim.export_result(second.folder, "second.zip")
+    mine = gaitsim.import_result(file, results="others")
+    assert mine.folder == Path("others") / second.folder.name
+    assert all(copy.same for copy in mine.copies) and "no unknown code" in repr(mine)
+    assert gaitsim.load(mine.folder).metrics == dict(second.outcomes[0].metrics)
+    with pytest.raises(GaitsimError):
+        gaitsim.import_result(file, results="others")
+
+
+def test_what_is_drawn_of_a_spec_goes_to_the_results(spec: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    wanted = {"only": True, "export": "csv"}
+    assert gaitsim.analyze(spec, **wanted).products.folder == Path("analysis/stone")
+    assert gaitsim.analyze(spec, results="scratch", **wanted).products.folder == Path("scratch/analysis/stone")
+    monkeypatch.setenv("GAITSIM_RESULTS", "disk")
+    assert gaitsim.analyze(spec, **wanted).products.folder == Path("disk/analysis/stone")
+    assert not Path("results").exists()
