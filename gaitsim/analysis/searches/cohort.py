@@ -80,7 +80,8 @@ def _endings(grid: _Grid) -> Drawing:
     axes.set_yticks(range(count), [_said(body[0], grid.own) for body in grid.bodies], fontsize=FONT - 3)
     axes.set_ylim(count - 0.4, -0.6)
     axes.set_xlim(-0.6, len(grid.devices) - 0.4)
-    axes.set_xticks(range(len(grid.devices)), [", ".join(_words(row, grid.varied)) or "-" for row in grid.devices])
+    devices = [", ".join(_words(row, grid.varied)) for row in grid.devices]
+    axes.set_xticks(range(len(devices)), devices, fontsize=FONT - 3)
     axes.set_xlabel(", ".join(grid.varied))
     above(axes)
     rows = count * len(grid.devices)
@@ -100,14 +101,26 @@ def _metric(grid: _Grid, metric: str, unit: str) -> Drawing:
     if grid.varied:
         _lines(figure, axes, grid, metric, at)
     else:
-        axes.plot(at, [body[0].value(metric) for body in grid.bodies], "o", markersize=4)
+        _points(figure, axes, grid, metric, at)
     if found is None:
         axes.set_xticks(at, [row.settings.get(address, row.body) for row in over], rotation=30, ha="right")
     axes.set_xlabel(labelled(address, name) if found else address)
     axes.set_ylabel(labelled(metric, unit))
     each = "One line for each body. " if grid.varied else ""
-    caption = f"{metric} over {address}. {each}Rows that did not complete are left out."
+    again = "Open: tuned again, so that it is another gait. " if grid.varied else ""
+    caption = f"{metric} over {address}. {each}{again}Rows that did not complete are left out."
     return Drawing(metric.replace(".", "_"), f"{metric} over {address}", caption, figure)
+
+
+def _points(figure: Figure, axes: Axes, grid: _Grid, metric: str, at: Floats) -> None:
+    """One point for each body, coloured by the second number that differs between bodies."""
+    values = [body[0].value(metric) for body in grid.bodies]
+    shade = places([body[0].settings.get(grid.own[1]) for body in grid.bodies]) if len(grid.own) > 1 else None
+    if shade is None:
+        axes.plot(at, values, "o", markersize=4)
+        return
+    drawn = axes.scatter(at, values, c=shade[0], s=24, cmap="viridis", zorder=3)
+    figure.colorbar(drawn, ax=axes, label=labelled(grid.own[1], shade[1]))
 
 
 def _lines(figure: Figure, axes: Axes, grid: _Grid, metric: str, at: Floats) -> None:
@@ -120,17 +133,21 @@ def _lines(figure: Figure, axes: Axes, grid: _Grid, metric: str, at: Floats) -> 
     values = np.array([[row.value(metric) for row in body] for body in grid.bodies])
     scale = Normalize(shade[0].min(), shade[0].max()) if shade else Normalize(0, 1)
     order = np.argsort(at, kind="stable")
+    retuned = np.array([[row.ending == "retuned" for row in body] for body in grid.bodies])
     for i, line in enumerate(values):
         colour = colormaps["viridis"](scale(shade[0][i])) if shade else PALETTE[0]
         axes.plot(at[order], line[order], "o-", color=colour, markersize=3, linewidth=0.9)
-    whole = values[np.isfinite(values).all(axis=1)]
+        axes.plot(at[retuned[i]], line[retuned[i]], "o", color=colour, markersize=6, markerfacecolor="white", zorder=4)
+    whole = values[np.isfinite(values).all(axis=1) & ~retuned.any(axis=1)]
+    if retuned.any():
+        axes.plot([], [], "o", color=GREY, markersize=6, markerfacecolor="white", label="tuned again")
     if len(whole):
         axes.plot(
             at[order],
             whole.mean(axis=0)[order],
             "k-",
             linewidth=2.2,
-            label=f"mean of {len(whole)} bodies that completed all",
+            label=f"mean of {len(whole)} bodies that need no tuning",
         )
         above(axes)
     if shade:
