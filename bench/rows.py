@@ -39,6 +39,11 @@ class Report:
     rows: dict[str, dict[str, dict[str, float]]] = field(default_factory=dict)
     skipped: list[str] = field(default_factory=list)
     began: float = field(default_factory=time.monotonic)
+    share: float = 0.0
+
+    def allow(self, share: float) -> None:
+        """Give the next table a share of all seconds. What a table leaves is there for those after it."""
+        self.share += share
 
     def begin(self, section: Section) -> None:
         """Print a table's title and the names of its columns."""
@@ -48,8 +53,9 @@ class Report:
         sys.stdout.flush()
 
     def has_time(self, name: str) -> bool:
-        """Whether a row may still begin; one that may not is told at the end."""
-        left = time.monotonic() - self.began < self.seconds
+        """Whether a row of this table may begin; its first always may. One that may not is told at the end."""
+        first = not self.rows[self.sections[-1].title]
+        left = time.monotonic() - self.began < self.seconds * (1.0 if first else self.share)
         if not left:
             self.skipped.append(name)
         return left
