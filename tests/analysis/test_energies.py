@@ -52,6 +52,37 @@ simulate: {duration: 1 s, step: 0.02 ms}
 """
 
 
+EXO = """
+gaitsim: 1
+parts:
+  rod: {use: segment/rod, mass: 2 kg, length: 1 m}
+  pivot: {use: joint/hinge, parent: world, child: rod.proximal}
+  exo:
+    use: device/ankle_spring
+    stiffness: 30 N m/rad
+    slack_angle: 60 deg
+    angle: {from: pivot.angle}
+    to: {moment: pivot.torque}
+  push:
+    use: controller/pid
+    proportional: 5 N m/rad
+    angle: {from: pivot.angle}
+    angular_velocity: {from: pivot.velocity}
+    to: pivot.torque
+  energy: {use: sensor/mechanical_energy}
+simulate: {duration: 2 s, step: 0.02 ms}
+"""
+
+
+def test_a_device_is_in_the_books_beside_another_drive() -> None:
+    found = balance(of_text(EXO))
+    assert found is not None
+    assert found.stored["elastic, exo"].max() > 1
+    assert np.abs(found.exchanged.get("exo", np.zeros(1))).max() < 0.01  # a spring gives back what it takes
+    assert np.ptp(found.exchanged["pivot, torque"]) > 0.1
+    assert np.abs(found.residual).max() < 0.01 * found.turned_over
+
+
 def test_a_bounce_without_friction_keeps_its_energy() -> None:
     found = balance(of_text(BALL))
     assert found is not None

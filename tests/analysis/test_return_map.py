@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaitsim.analysis.signals.return_map import fixed_point, maxima
+from gaitsim.analysis.signals.return_map import at_passages, fixed_point, maxima
 
 
 def test_maxima_of_a_sine() -> None:
@@ -60,3 +60,10 @@ def test_events_that_begin_at_the_fixed_point_tell_no_slope() -> None:
 
 def test_two_events_are_too_few() -> None:
     assert fixed_point(np.array([1.0, 1.1])) is None
+
+
+def test_passages_lie_between_instants() -> None:
+    times = np.arange(0, 3, 0.01)
+    guard = np.sin(2 * np.pi * (times - 0.2034))
+    assert at_passages(times, guard) == pytest.approx([0.2034, 1.2034, 2.2034], abs=1e-5)
+    assert at_passages(times, np.ones_like(times)).size == 0

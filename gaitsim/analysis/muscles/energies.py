@@ -12,7 +12,7 @@ from gaitsim.analysis.drawings.style import GREY, PALETTE, above, labelled, pane
 from gaitsim.analysis.gait.joint_moments import STOPS
 from gaitsim.analysis.gait.path_work import created_power
 from gaitsim.analysis.muscles.figures import muscles, work_done
-from gaitsim.analysis.replays.cycles import Floats, arriving, shade_stance, shown_part, stance, thinned
+from gaitsim.analysis.replays.cycles import Floats, sent, shade_stance, shown_part, stance, thinned
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.model import Part
 from gaitsim.units import parse_unit
@@ -91,7 +91,30 @@ def _of_part(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, F
         return {own: signal[f"{own}.energy"]}, {}
     if part.type.kind == "joint":
         return _of_joint(replay, part)
+    if part.type.kind == "device":
+        return _of_device(replay, part)
     return {}, {}
+
+
+def _of_device(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, Floats]]:
+    """What a device stores, and what it supplies beyond that: work of a motor, or losses, which are negative."""
+    own, signal = part.address, replay.trajectory
+    work = np.zeros(len(replay.times))
+    for connection in replay.model.connections:
+        if connection.sender.rpartition(".")[0] == own:
+            joint = next((p for p in replay.model.parts if p.address == connection.target.rpartition(".")[0]), None)
+            if joint is not None and joint.type.kind == "joint" and (rate := _rate(joint)):
+                work = work + _integral(np.nan_to_num(sent(replay, connection)) * signal[rate], replay.times)
+    if "elastic_energy" not in part.type.outputs:
+        return {}, {own: work}
+    energy = signal[f"{own}.elastic_energy"]
+    return {own: energy}, {own: work + energy - energy[:1]}
+
+
+def _rate(joint: Part) -> str:
+    """The address of a joint's velocity; empty if it has none or several."""
+    rates = [name for name, port in joint.type.outputs.items() if port.unit in ("m/s", "rad/s")]
+    return f"{joint.address}.{rates[0]}" if len(rates) == 1 else ""
 
 
 def _work_of_contact(replay: Replay, part: Part) -> Floats:
@@ -115,20 +138,22 @@ def _applied(replay: Replay, force: str, velocity: str) -> Floats:
 
 
 def _of_joint(replay: Replay, part: Part) -> tuple[dict[str, Floats], dict[str, Floats]]:
-    """Stops, damping and drives of a joint with one velocity. Moments of muscle paths count as the muscles'."""
-    own, outputs = part.address, part.type.outputs
-    rates = [name for name, port in outputs.items() if port.unit in ("m/s", "rad/s")]
-    if len(rates) != 1:
+    """Stops, damping and drives of a joint with one velocity. Moments of muscle paths count as the muscles', those of
+    devices as the devices'."""
+    own, outputs, rate = part.address, part.type.outputs, _rate(part)
+    if not rate:
         return {}, {}
-    signal, velocity = replay.trajectory, replay.trajectory[f"{own}.{rates[0]}"]
+    signal, velocity = replay.trajectory, replay.trajectory[rate]
     held: dict[str, Floats] = {}
     given: dict[str, Floats] = {}
     drives = [name for name, port in part.type.inputs.items() if parse_unit(port.unit).si in ("N", "N m")]
     for drive in drives:
         kinds = {p.address: p.type.kind for p in replay.model.parts}
-        senders = [c.sender for c in replay.model.connections if c.target == f"{own}.{drive}"]
-        if senders and all(kinds[sender.rpartition(".")[0]] != "path" for sender in senders):
-            given[f"{own}, {drive}"] = _integral(arriving(replay, f"{own}.{drive}") * velocity, replay.times)
+        senders = [c for c in replay.model.connections if c.target == f"{own}.{drive}"]
+        others = [c for c in senders if kinds[c.sender.rpartition(".")[0]] not in ("path", "device")]
+        if others:
+            moment = sum((np.nan_to_num(sent(replay, each)) for each in others), np.zeros(len(replay.times)))
+            given[f"{own}, {drive}"] = _integral(moment * velocity, replay.times)
     damping = 0.0
     if "damping" in part.numbers:
         damping = replay.model.values()[part.numbers["damping"]]

@@ -16,7 +16,7 @@ from gaitsim.analysis.gait.legs import two_legs
 from gaitsim.analysis.replays.cycles import arriving, last_cycles, thinned
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.signals.pattern import NoSuchSignal, matching
-from gaitsim.analysis.signals.return_map import FixedPoint, fixed_point, maxima
+from gaitsim.analysis.signals.return_map import FixedPoint, at_passages, fixed_point, maxima
 from gaitsim.errors import ExitCode, GaitsimError
 from gaitsim.model import Signal, recorded_signals
 
@@ -29,6 +29,8 @@ _LINES = 4  # in one panel
 _PANELS = 4  # in one figure
 _CYCLES = 3  # in an overview
 _EVENTS = 3  # give two points of a return map: fewer are no map
+_ONE = {"maxima": "maximum", "passages": "passage"}
+_SECTION = "measure/section"  # its return map has the signal at its passages
 _MANY = 16  # signals of one kind in an overview; of more, --plot draws those that are asked for
 _OVERVIEW = {  # name of the file: title, kinds of the parts, names of their signals (all if none)
     "motion": ("Coordinates of the joints", ("joint",), ("position", "angle")),
@@ -159,10 +161,11 @@ def return_map(replays: Sequence[Replay], text: str) -> Drawing:
         TooFewEvents: A run has too few events.
     """
     (signal,) = _single(replays, _watched(replays, text))
-    runs = [(r, m) for r in replays if _has(r, signal) for m in [_maxima(r, signal)]]
+    runs = [(r, m) for r in replays if _has(r, signal) for m in [_events(r, signal, text)]]
+    what = "passages" if any(_is_section(replay, text) for replay in replays) else "maxima"
     if all(events.size < _EVENTS for _, events in runs):
         counts = ", ".join(f"{replay.label} has {events.size}" for replay, events in runs)
-        rule = f"a return map needs {_EVENTS} maxima of {signal.address}, and {counts}"
+        rule = f"a return map needs {_EVENTS} {what} of {signal.address}, and {counts}"
         move = "simulate longer, such as --set 'simulate.duration=20 s', or name another signal"
         raise TooFewEvents(f"{text}: {rule}; {move}.")
     figure, (axes,) = style.panels(height=4.6)
@@ -171,12 +174,12 @@ def return_map(replays: Sequence[Replay], text: str) -> Drawing:
         if events.size >= _EVENTS:
             fixed.append(fixed_point(events))
             _map_points(axes, events, fixed[-1], number, replay.label)
-            words.append(f"{replay.label}: {events.size} maxima{_fixed_words(fixed[-1], signal.unit)}")
+            words.append(f"{replay.label}: {events.size} {what}{_fixed_words(fixed[-1], signal.unit)}")
         else:
-            words.append(f"{replay.label}: too few maxima ({events.size})")
+            words.append(f"{replay.label}: too few {what} ({events.size})")
     _square(axes, np.concatenate([events for _, events in runs if events.size >= _EVENTS]))
-    axes.set_xlabel(style.labelled(f"{signal.address}, maximum n", signal.unit))
-    axes.set_ylabel(style.labelled(f"{signal.address}, maximum n + 1", signal.unit))
+    axes.set_xlabel(style.labelled(f"{signal.address}, {_ONE[what]} n", signal.unit))
+    axes.set_ylabel(style.labelled(f"{signal.address}, {_ONE[what]} n + 1", signal.unit))
     if any(fixed):
         axes.plot([], [], "*", color="white", markersize=11, markeredgecolor="black", label="fixed point")
     title = f"return map of {signal.address}"
@@ -190,9 +193,10 @@ def return_map(replays: Sequence[Replay], text: str) -> Drawing:
 def _watched(replays: Sequence[Replay], text: str) -> str:
     """The signal that a measure observes; the text itself if it is not a measure."""
     for replay in replays:
-        part = next((p for p in replay.model.parts if p.address == text and p.measure), None)
-        wired = (c.sender for c in replay.model.connections if part and c.target.rpartition(".")[0] == text)
-        sender = next(wired, None)
+        measures = [part for part in replay.model.parts if part.address == text and part.measure]
+        inputs = ["signal"] if _is_section(replay, text) else [name for part in measures for name in part.type.inputs]
+        ports = {f"{text}.{name}" for name in inputs}
+        sender = next((c.sender for c in replay.model.connections if c.target in ports), None)
         if sender is not None:
             return sender
     return text
@@ -211,9 +215,15 @@ def _values(replay: Replay, signal: Signal) -> Floats:
     return arriving(replay, signal.address)
 
 
-def _maxima(replay: Replay, signal: Signal) -> Floats:
+def _events(replay: Replay, signal: Signal, text: str) -> Floats:
     values = _values(replay, signal)
-    return values[maxima(values)]
+    return (
+        at_passages(values, replay.trajectory[f"{text}.guard"]) if _is_section(replay, text) else values[maxima(values)]
+    )
+
+
+def _is_section(replay: Replay, text: str) -> bool:
+    return any(part.address == text and part.type.reference == _SECTION for part in replay.model.parts)
 
 
 def _map_points(axes: Axes, events: Floats, found: FixedPoint | None, number: int, label: str) -> None:

@@ -55,6 +55,18 @@ def maxima(values: Floats, prominence: float = PROMINENCE) -> NDArray[np.int64]:
     return np.array([place for place in found if place > 0], dtype=np.int64)
 
 
+def at_passages(values: Floats, guard: Floats) -> Floats:
+    """The values of a signal where a guard rises through 0, between instants by the straight line.
+
+    Args:
+        values: The signal.
+        guard: The guard, which is compared at the same instants.
+    """
+    at = np.flatnonzero((guard[:-1] < 0) & (guard[1:] >= 0))
+    share = guard[at] / (guard[at] - guard[at + 1])
+    return values[at] + share * (values[at + 1] - values[at])
+
+
 def _turns(values: Floats) -> list[int]:
     """The indices at which a signal turns, and its ends; a search for extremes needs no others."""
     steps = np.sign(np.diff(values))
