@@ -11,7 +11,7 @@ import pytest
 from gaitsim.analysis.gait.comparison import followed, later, matched_moments, norm_numbers
 from gaitsim.analysis.gait.figures import gait_figures, lacking_gait, symmetry_pairs
 from gaitsim.analysis.gait.footsteps import double_support, margin, steps, symmetry, symmetry_index
-from gaitsim.analysis.gait.joint_moments import hidden_paths, joint_moment, joint_power
+from gaitsim.analysis.gait.joint_moments import joint_moment, joint_power
 from gaitsim.analysis.gait.legs import Leg, mass, on_side, side_of, stands, two_legs, unsided
 from gaitsim.analysis.gait.norms import POINTS, read_norm
 from gaitsim.analysis.hopping.figures import hopping_figures
@@ -21,8 +21,6 @@ from gaitsim.analysis.signals.motion import motion_figures
 from gaitsim.components.find import Library, shipped_folder
 from tests.analysis.replays import cut, of_spec
 from tests.analysis.walking import STRIDE, TIMES, WEIGHT, Floats, extended, on_ground, phase, walk
-from tests.simulation.models import ROOT
-from tests.simulation.models import model as model_of
 
 LIBRARY = Library((shipped_folder(),))
 ANGLES = "norms/fukuchi2018_walking"
@@ -180,12 +178,6 @@ def test_damping_is_part_of_a_moment(tmp_path: Path) -> None:
     damped = extended(tmp_path, "parts: {leg: {ankle: {damping: 3 N m s/rad}}}\n")
     replay = walk({"leg_r.soleus.path.moment": 80.0, "leg_r.ankle.angular_velocity": 2.0}, damped)
     assert joint_moment(replay, "leg_r.ankle") == pytest.approx(74)
-
-
-def test_paths_whose_moments_nobody_records() -> None:
-    assert hidden_paths(walk({}).model, "r") == []
-    (path,) = hidden_paths(model_of(ROOT / "specs" / "hopping_leg_mass.yaml"), "")
-    assert path == "extensor.path"
 
 
 def test_steps_are_from_print_to_print() -> None:

@@ -31,6 +31,7 @@ def time_to(reference: str, begin: float, excitation: float, level: float, **val
         ("activation/first_order", {}, 0.010, 0.010),
         ("activation/two_constants", THELEN, 0.01578, 0.03574),
         ("activation/two_constants", {}, 0.01052, 0.02859),
+        ("activation/excitation_rate", {}, 0.010, 0.040),
         ("activation/degroote2016", SHARP, 0.01578, 0.04288),
         # With the paper's b = 0.1: the inverse of the rate, integrated over the activation.
         ("activation/degroote2016", {}, 0.023163, 0.028439),
@@ -42,7 +43,9 @@ def test_times_of_a_step(reference: str, values: dict[str, float], rise: float, 
 
 
 @modes
-@pytest.mark.parametrize("reference", ["activation/two_constants", "activation/degroote2016"])
+@pytest.mark.parametrize(
+    "reference", ["activation/two_constants", "activation/excitation_rate", "activation/degroote2016"]
+)
 @pytest.mark.parametrize(("excitation", "activation"), [(0.5, 0.5), (-3, 0.01), (0, 0.01), (7, 1)])
 def test_it_clips_and_starts_settled(reference: str, excitation: float, activation: float, mode: str) -> None:
     tables = Tables(primitive(reference)).put({"excitation": excitation})
@@ -74,3 +77,12 @@ def test_the_smooth_one_by_its_equation(values: dict[str, float], smoothing: flo
         f, s = 0.5 * math.tanh(smoothing * (excitation - level)), 0.5 + 1.5 * level
         rate = ((f + 0.5) / (0.015 * s) + s / 0.060 * (0.5 - f)) * (excitation - level)
         assert tables.x.level - level == pytest.approx(rate * 1e-4, rel=1e-9)
+
+
+@pytest.mark.parametrize("excitation", [0.1, 0.4])
+def test_the_rate_of_a_muscle_grows_with_its_excitation(excitation: float) -> None:
+    """Rising or falling, it approaches the excitation exponentially, at the rate 25 + 75 u."""
+    for begin in (0.0, 1.0):
+        level = excitation + (begin - excitation) * math.exp(-1)
+        found = time_to("activation/excitation_rate", begin, excitation, level)
+        assert found == pytest.approx(1 / (25 + 75 * excitation), abs=1.5e-5)

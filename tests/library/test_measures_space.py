@@ -39,6 +39,30 @@ def test_step_width_of_who_takes_no_steps_is_nothing() -> None:
     assert math.isnan(found["value"]) and math.isnan(found["deviation"])
 
 
+@pytest.mark.parametrize("heading", [0.0, 0.5, -2.0])
+def test_the_lateral_margin_is_that_of_the_extrapolated_center_of_mass(heading: float) -> None:
+    """The body sways by 2 cm at 1/s between feet 6 and 7 cm beside its way; both stand alone for 0.4 s of a stride."""
+    times = steps(10)
+    left, right = walking(times, 1.0, 0.6), walking(times, 1.0, 0.6, late=0.5)
+    way, across = np.array([math.cos(heading), math.sin(heading)]), np.array([-math.sin(heading), math.cos(heading)])
+    sway, rate = 0.02 * np.sin(2 * np.pi * times), 0.04 * np.pi * np.cos(2 * np.pi * times)
+    center = (1.3 * times)[:, None] * way + sway[:, None] * across
+    velocity = 1.3 * way + rate[:, None] * across
+    ahead = np.floor(times)[:, None] * 1.3 * way
+    signals = {"left": left, "right": right, "heading": np.full_like(times, heading)}
+    signals["center_height"] = np.full_like(times, 0.981)
+    for name, places in (("center", center), ("left", ahead + 0.06 * across), ("right", ahead - 0.07 * across)):
+        signals[f"{name}_position"], signals[f"{name}_side_position"] = places[:, 0], places[:, 1]
+    signals["center_velocity"], signals["center_side_velocity"] = velocity[:, 0], velocity[:, 1]
+    found = metrics("measure/lateral_margin", signals, DT, border=0.01)
+    extrapolated = sway + rate * math.sqrt(0.1)
+    alone = [(left > 0.5) & (right < 0.5), (right > 0.5) & (left < 0.5)]
+    margins = [0.07 - np.max(extrapolated[alone[0]]), 0.08 + np.min(extrapolated[alone[1]])]
+    assert found["value"] == pytest.approx(np.mean(margins), abs=1e-4)
+    assert found["lowest"] == pytest.approx(min(margins), abs=1e-9)
+    assert found["deviation"] == pytest.approx(abs(margins[0] - margins[1]) / 2, abs=1e-4)
+
+
 def test_the_range_within_strides_leaves_out_drift_and_the_beginning() -> None:
     times = steps(12)
     signal = 0.2 * np.sin(2 * np.pi * times) + 0.1 * times  # 0.1 a stride

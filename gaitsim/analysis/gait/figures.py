@@ -12,7 +12,7 @@ from gaitsim.analysis.drawings.style import FONT, GREY, above, labelled, panels,
 from gaitsim.analysis.gait.comparison import Followed, Matched, followed, matched_moments, matched_signals, runs
 from gaitsim.analysis.gait.footsteps import double_support, lacks_center, margin, steps, symmetry
 from gaitsim.analysis.gait.frontal import frontal_figures
-from gaitsim.analysis.gait.joint_moments import hidden_paths, joint_power, joint_work
+from gaitsim.analysis.gait.joint_moments import joint_power, joint_work
 from gaitsim.analysis.gait.keypoints import FORWARDS, PEAKS_BY, POWERS, VERTICAL, draw_peaks, name_peaks
 from gaitsim.analysis.gait.legs import SIDES, Leg, has_two_legs, mass, on_side, two_legs
 from gaitsim.analysis.gait.muscles import activation_figures, metabolic_figures, sided_muscles
@@ -61,9 +61,6 @@ def lacking_gait(replay: Replay) -> list[str]:
     if lacks_center(replay.model):
         move = "add center: {use: sensor/center_of_mass} to its parts"
         found.append(f"{replay.label} does not tell its center of mass, so no margin to falling is drawn; {move}.")
-    hidden = [path for side in SIDES for path in hidden_paths(replay.model, side)]
-    if hidden:
-        found.append(f"{replay.label}: {hidden[0]} tells no joint moment, so neither moments nor powers are drawn.")
     return found
 
 

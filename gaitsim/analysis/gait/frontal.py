@@ -8,8 +8,9 @@ import numpy as np
 
 from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.drawings.style import GREY, above, labelled, panels
+from gaitsim.analysis.gait.joint_moments import joint_moment
 from gaitsim.analysis.gait.keypoints import ACROSS, ACROSS_BY, draw_peaks, name_peaks
-from gaitsim.analysis.gait.legs import Leg, side_of, unsided
+from gaitsim.analysis.gait.legs import Leg, mass, side_of, unsided
 from gaitsim.analysis.gait.panels import SPREAD, draw_cycle, said
 from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
@@ -20,20 +21,20 @@ _HINGE = "joint/spatial_hinge"
 
 
 def frontal_figures(replay: Replay, legs: Sequence[Leg]) -> list[Drawing]:
-    """Obliquity and rotation of the pelvis, adduction and rotation of the hip, and medial force; none for a model in
-    the plane.
+    """Obliquity and rotation of the pelvis, angles and abduction moment of the hip, and medial force; none for a model
+    in the plane.
     """
     found = {name: curves for name, curves in _curves(replay, legs).items() if len(curves) == len(legs)}
     if not found:
         return []
     figure, axes = panels(len(found), 1, height=1.6, share=True)
     for panel, (name, curves) in zip(axes, found.items(), strict=True):
-        force = name == _MEDIAL
+        factor, label = _SCALES.get(name, (float(np.degrees(1)), labelled(name, "deg")))
         for leg in legs:
-            draw_cycle(panel, leg, leg.over_cycle(curves[leg.side]), 1 if force else float(np.degrees(1)))
+            draw_cycle(panel, leg, leg.over_cycle(curves[leg.side]), factor)
         draw_peaks(panel, ACROSS.get(name, ()))
         panel.axhline(0, color=GREY, linewidth=0.8)
-        panel.set_ylabel("medial (body weights)" if force else labelled(name, "deg"))
+        panel.set_ylabel(label)
     known = [panel for panel, name in zip(axes, found, strict=True) if name in ACROSS]
     if known:
         name_peaks(known[0])
@@ -42,17 +43,21 @@ def frontal_figures(replay: Replay, legs: Sequence[Leg]) -> list[Drawing]:
     people = f" Green: peaks of adults ({ACROSS_BY})." if known else ""
     caption = (
         f"Out of the sagittal plane: {said(legs)}. The obliquity is positive while the leg's own side of the pelvis is "
-        "raised, its rotation while that side is in front; rotation of the hip inwards is positive, "
-        f"and so is the force of the ground towards the other foot. {SPREAD} Dotted: take-off.{people}"
+        "raised, its rotation while that side is in front; rotation of the hip inwards is positive, the moment of the "
+        "hip where it abducts the thigh or raises the other side of the pelvis, and the force of the ground towards "
+        f"the other foot. {SPREAD} Dotted: take-off.{people}"
     )
     return [Drawing("gait_frontal", "Motion and force out of the sagittal plane over the gait cycle", caption, figure)]
 
 
 _MEDIAL = "medial force"
+_ABDUCTION = "hip abduction moment"
+# Factor and label of what is no angle.
+_SCALES = {_ABDUCTION: (1.0, "abduction (N m/kg)"), _MEDIAL: (1.0, "medial (body weights)")}
 
 
 def _curves(replay: Replay, legs: Sequence[Leg]) -> dict[str, dict[str, Floats]]:
-    """Each quantity by the side of a leg, in rad or body weights."""
+    """Each quantity by the side of a leg, in rad, N m/kg or body weights."""
     signals = replay.trajectory
     found: dict[str, dict[str, Floats]] = {}
     for leg in legs:
@@ -64,6 +69,9 @@ def _curves(replay: Replay, legs: Sequence[Leg]) -> dict[str, dict[str, Floats]]
             name = unsided(hinge.address).replace("_", " ")
             if name.endswith(("adduction", "rotation")):
                 found.setdefault(name, {})[leg.side] = signals[f"{hinge.address}.angle"]
+            moment = joint_moment(replay, hinge.address) if name == "hip adduction" else None
+            if moment is not None:
+                found.setdefault(_ABDUCTION, {})[leg.side] = -moment / mass(replay, leg)
         sideways = [f"{contact}.side_force" for contact in leg.contacts]
         if leg.weight > 0 and all(signal in signals.signals for signal in sideways):
             inwards = (1 if leg.side == "r" else -1) / leg.weight

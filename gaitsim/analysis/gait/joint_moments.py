@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from gaitsim.analysis.gait.legs import Leg, side_of
+from gaitsim.analysis.gait.legs import Leg
 from gaitsim.analysis.replays.cycles import Floats, arriving
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.model import Model, Part
+from gaitsim.simulation.tendon_arms import tendon_arms
 from gaitsim.units import parse_unit
 
 STOPS = ("stop_moment", "stop")
@@ -17,14 +18,15 @@ def joint_moment(replay: Replay, joint: str) -> Floats | None:
     """The net moment in N m about a joint, positive where it increases the angle: of muscles, other senders, stops,
     and damping.
 
+    Paths through points report no moment; theirs is computed from their moment arms at each instant.
+
     Returns:
-        A value for each instant; None if the joint is not a hinge, or if muscles of its side act through tendons whose
-        moments are not recorded.
+        A value for each instant; None if the joint is not a hinge.
     """
     part = _joint(replay.model, joint)
-    if part is None or hidden_paths(replay.model, side_of(joint)):
+    if part is None:
         return None
-    total = sum((arriving(replay, f"{joint}.{name}") for name in _moments(part)), np.zeros(len(replay.times)))
+    total = sum((arriving(replay, f"{joint}.{name}") for name in _moments(part)), pulled(replay, joint))
     for name in STOPS:
         if name in part.type.outputs:
             total = total + replay.trajectory[f"{joint}.{name}"]
@@ -47,11 +49,16 @@ def joint_work(replay: Replay, leg: Leg, joint: str) -> tuple[Floats, Floats] | 
     return leg.integral(np.maximum(power, 0)), leg.integral(np.minimum(power, 0))
 
 
-def hidden_paths(model: Model, side: str) -> list[str]:
-    """The paths of a side that report no moment, because MuJoCo's tendons pull the bodies."""
-    paths = [p for p in model.parts if p.type.kind == "path" and side_of(p.address) == side]
-    told = [p.address for p in paths if any(parse_unit(output.unit).si == "N m" for output in p.type.outputs.values())]
-    return [p.address for p in paths if not any(t == p.address or t.startswith(f"{p.address}.") for t in told)]
+def pulled(replay: Replay, joint: str) -> Floats:
+    """The moment in N m of all paths through points about a hinge, positive where it increases the angle."""
+    arms = tendon_arms(replay.model, replay.trajectory, joint)
+    return sum((arm * _tension(replay, path) for path, arm in arms.items()), np.zeros(len(replay.times)))
+
+
+def _tension(replay: Replay, path: str) -> Floats:
+    part = next(part for part in replay.model.parts if part.address == path)
+    name = next(name for name, port in part.type.inputs.items() if parse_unit(port.unit).si == "N")
+    return arriving(replay, f"{path}.{name}")
 
 
 def _joint(model: Model, address: str) -> Part | None:

@@ -41,12 +41,13 @@ POWERS: Mapping[str, Sequence[Peak]] = {
     "ankle": (Peak(-0.600, -0.385, 36, 36), Peak(3.269, 3.331, 54, 55)),
 }
 
-# deg, out of the sagittal plane: between one adult at 1.24 m/s and a laboratory's mean of adults
+# deg and N m/kg, out of the sagittal plane: between one adult at 1.24 m/s and a laboratory's mean of adults
 ACROSS_BY = "one adult of Rajagopal and others 2016, and the normal curves of a gait laboratory"
 ACROSS: Mapping[str, Sequence[Peak]] = {
     "pelvic obliquity": (Peak(2.7, 4.3, 18, 18), Peak(-5.5, -4.7, 68, 69)),
     "pelvic rotation": (Peak(2.5, 7.5, 16, 17), Peak(-4.6, -1.2, 72, 76)),
     "hip adduction": (Peak(3.9, 5.6, 18, 22), Peak(-12.7, -5.0, 66, 70)),
+    "hip abduction moment": (Peak(0.74, 0.74, 18, 18),),  # of the laboratory
 }
 
 # from and to, in % of the gait cycle
