@@ -20,6 +20,7 @@ from gaitsim.results.cohort import Cohort, Row, cohort_of
 from gaitsim.results.manifest import changed_versions, read_result
 from gaitsim.results.rows import read_rows
 from gaitsim.results.store import CannotSave
+from gaitsim.simulation.batch import Invalid
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode
 from gaitsim.spec.inheritance import without
@@ -223,10 +224,11 @@ def cohort_runs(opening: Opening, asked: Asked, mode: Mode, root: Path | None) -
     seed = optimize_section(opened.document).seed if asked.seed is None else asked.seed
     cohort = Cohort(tuple(_crossed(bodies, devices, asked.bodies)), asked.retune, seed)
     opened = replace(opened, more={COHORT: cohort.text()})
-    models = [model, *_models(opened, cohort, bodies)]
+    others, faults = _models(opened, cohort, bodies)
+    models = [model, *others]
     more = {"cohort": {"bodies": str(asked.bodies), "metrics": list(asked.metrics)}}
     keeping = Keeping(root, opened, models, mode, more=more)
-    notices = [*dict.fromkeys([*opened.notices, *model.notices])]
+    notices = [*dict.fromkeys([*opened.notices, *model.notices, *(f"warning: {fault}" for fault in faults)])]
     return CohortRuns(cohort, opened.bundle(models), model, mode, asked.metrics, keeping, notices)
 
 
@@ -292,15 +294,15 @@ def _crossed(bodies: Sequence[Body], devices: Sequence[dict[str, str]], path: Pa
             yield Row(body.name, body.settings | device, body.place)
 
 
-def _models(opened: Opened, cohort: Cohort, bodies: Sequence[Body]) -> list[Model]:
-    """The models of each body and of each device; the bundle needs their components.
+def _models(opened: Opened, cohort: Cohort, bodies: Sequence[Body]) -> tuple[list[Model], list[Invalid]]:
+    """The models of each body and of each device, whose components the bundle needs; and why some have none.
 
     Raises:
         InvalidSpec: None is valid; the error is that of the first.
         InvalidComponent: Likewise.
     """
     count = len(cohort.rows) // len(bodies)
-    models, faults = list[Model](), list[InvalidSpec | InvalidComponent]()
+    models, faults = list[Model](), list[Invalid]()
     for i, row in enumerate(cohort.rows):
         if i >= count and i % count:
             continue
@@ -310,7 +312,7 @@ def _models(opened: Opened, cohort: Cohort, bodies: Sequence[Body]) -> list[Mode
             faults.append(error)
     if not models:
         raise faults[0]
-    return models
+    return models, faults
 
 
 def _check_metrics(metrics: Sequence[str], model: Model) -> None:

@@ -66,6 +66,7 @@ def test_every_body_with_every_device_into_one_table(capsys: pytest.CaptureFixtu
     assert [float(row["time [s]"]) for row in rows[:3]] == pytest.approx([fallen, fallen, 0.3], abs=2e-3)
     assert (said.code, rows[4]["way [m]"]) == (0, "")
     assert rows[4]["reason"] == f"bodies.csv:4 body_height=-1 m: body_height: {OUTSIDE}"
+    assert said.err.startswith(f"warning: {rows[4]['reason']}\n")
     assert f"deep (2 rows from 5) failed: {rows[4]['reason']}\n" in said.err
     assert "3 bodies x 2: 6 rows: 2 completed, 2 failed, 2 stopped; " in said.out
     assert {path.name for path in (folder / "figures").iterdir()} == {"endings.png", "way.png"}
