@@ -48,8 +48,15 @@ def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path
     near = (lab or beside) / "library"
     own = [project / "components"] if project else []
     folders = [beside / "components", *extra, *own, near, shipped_folder()]
-    unique = {folder.resolve(): folder for folder in reversed(folders) if folder.is_dir()}
-    return tuple(folder for folder in folders if unique.get(folder.resolve()) is folder)
+    return _distinct(folder for folder in folders if folder.is_dir())
+
+
+def _distinct(folders: Iterable[Path]) -> tuple[Path, ...]:
+    """Each folder once, at its first position."""
+    found: dict[Path, Path] = {}
+    for folder in folders:
+        found.setdefault(folder.resolve(), folder)
+    return tuple(found.values())
 
 
 @dataclass
@@ -65,6 +72,9 @@ class Library:
     notices: list[str] = field(default_factory=list)
     _loaded: dict[str, ComponentFile] = field(default_factory=dict)
     _tables: dict[str, Table] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self.folders = _distinct(self.folders)
 
     def find(self, reference: str) -> ComponentFile:
         """Load a component.
