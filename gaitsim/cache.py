@@ -17,7 +17,7 @@ from gaitsim.folders import cache_folder
 from gaitsim.whole import PARTIAL, whole
 
 _DIGEST_SIZE = hashlib.sha256().digest_size
-_REMEDY = "so nothing is kept and each run compiles anew; set GAITSIM_CACHE to a folder that can be written"
+_REMEDY = "so nothing is kept and each run compiles again; set GAITSIM_CACHE to a folder that can be written"
 
 
 def kept(kind: str, key: str) -> bytes | None:

@@ -62,7 +62,7 @@ class Free:
         """
         said = self.unit.shown(value) + (f" from {origin}" if origin else "")
         rule = f"{said} is outside {self.unit.span(self.low, self.high)}, so it starts at {self.unit.shown(start)}"
-        return f"warning: {self.address}: {rule}; widen tune, or tune it anew."
+        return f"warning: {self.address}: {rule}; widen tune, or tune it again."
 
 
 @dataclass(frozen=True)

@@ -121,7 +121,7 @@ def _coordinates(model: Model, assembly: Assembly, mechanics: Any) -> tuple[tupl
         if not set(range(first, after)) <= set(found):
             address = str(mechanics.joint(joint).name)
             part = next((p for p in model.parts if address == p.address or address.startswith(f"{p.address}.")), None)
-            rule = "no output tells this joint's coordinate, so its motion was not recorded"
+            rule = "no output reports this joint's coordinate, so its motion was not recorded"
             move = 'declare an output and mj.read("angle", joint, "qpos") in its component\'s build'
             raise CannotAnimate(Fault(f"{rule}; {move}.", part.mark if part else None, address))
     return tuple(sorted(found.items()))

@@ -16,7 +16,7 @@ from typing import Any
 from gaitsim.cli.table import rows_of
 from gaitsim.errors import ExitCode, GaitsimError
 
-PLAIN_EVERY = 5.0  # seconds between lines of progress where stderr is no terminal
+PLAIN_EVERY = 5.0  # seconds between lines of progress where stderr is not a terminal
 
 
 def say(text: str) -> None:

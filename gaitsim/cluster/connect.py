@@ -64,7 +64,7 @@ def _address_in(file: Path) -> str:
     try:
         return str(json.loads(file.read_text(encoding="utf-8"))["address"])
     except (OSError, ValueError, KeyError, TypeError) as error:
-        raise ClusterError(f"{file}: this is no scheduler file; {move}.") from error
+        raise ClusterError(f"{file}: this is not a scheduler file; {move}.") from error
 
 
 def _parts(address: str, place: str) -> tuple[str, str, int]:
@@ -91,7 +91,7 @@ def _check_answer(host: str, port: int, place: str) -> None:
         socket.create_connection((host.strip("[]"), port), timeout=_PATIENCE).close()
     except OSError as error:
         reason = error.strerror or str(error)
-        move = "start one (dask scheduler), or mend the address"
+        move = "start one (dask scheduler), or correct the address"
         raise ClusterError(f"{place}: no scheduler answers at {host}:{port} ({reason}); {move}.") from error
 
 

@@ -179,7 +179,7 @@ def _mapping(document: MappingNode, name: str, faults: Faults) -> MappingNode:
     if node is None or (isinstance(node, ScalarNode) and node.value is None):
         return MappingNode({}, {}, document.mark)
     if not isinstance(node, MappingNode):
-        faults.add(f"{said(node)} is no mapping of names; write such as {name}: {_SAMPLES[name]}.", node.mark, name)
+        faults.add(f"{said(node)} is not a mapping of names; write such as {name}: {_SAMPLES[name]}.", node.mark, name)
         return MappingNode({}, {}, document.mark)
     return node
 
@@ -187,7 +187,7 @@ def _mapping(document: MappingNode, name: str, faults: Faults) -> MappingNode:
 def _text(node: Node, faults: Faults) -> str:
     if isinstance(node, ScalarNode) and isinstance(node.value, str):
         return node.value
-    faults.add(f"{said(node)} is no name; write such as thigh.proximal.", node.mark)
+    faults.add(f"{said(node)} is not a name; write such as thigh.proximal.", node.mark)
     return ""
 
 

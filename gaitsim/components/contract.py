@@ -56,7 +56,7 @@ def read_contract(text: str, named: str) -> dict[str, dict[str, str]]:
     for section in _SECTIONS:
         wanted = document.entries.get(section, MappingNode({}, {}, document.mark))
         if not isinstance(wanted, MappingNode):
-            faults.add(f"{said(wanted)} is no mapping of names; write such as {section}: {{force: N}}.", wanted.mark)
+            faults.add(f"{said(wanted)} is not a mapping of names; write such as {section}: {{force: N}}.", wanted.mark)
             continue
         found[section] = {}
         for name, node in wanted.entries.items():

@@ -227,7 +227,7 @@ class Library:
             return self.texts[path]
         real = path.resolve()
         if real.suffix != path.suffix:
-            rule = f"this links to {real}, which is no {path.suffix} file"
+            rule = f"this links to {real}, which is not a {path.suffix} file"
             raise InvalidSpec(Fault(f"{rule}; name a {what} of your own.", Mark(shown(path))))
         return text_of(path, shown(path), what)
 

@@ -118,7 +118,7 @@ def execute(text: str, file: str, mathematics: Any, shared: Sequence[Shared] = (
         exec(compile(text, file, "exec"), namespace)
     except Exception as error:
         raise InvalidComponent(
-            Fault(f"Python raises {type(error).__name__}: {error}; mend this line.", _mark_of(error, text, file))
+            Fault(f"Python raises {type(error).__name__}: {error}; correct this line.", _mark_of(error, text, file))
         ) from error
     for name, value in list(namespace.items()):
         if value is math:
@@ -146,7 +146,7 @@ def function_of(cls: type[Component], name: str) -> Callable[..., Any]:
 def raised(component: Primitive, function: str, address: str, error: Exception) -> Fault:
     """The fault for an exception that a component's function raised, at the line where it did."""
     said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    hint = "" if said.endswith("?") else "; mend this line."
+    hint = "" if said.endswith("?") else "; correct this line."
     if isinstance(error, AttributeError) and error.name and error.obj is not None:
         hint = f". {did_you_mean(error.name, [name for name in dir(error.obj) if not name.startswith('_')])}"
     return Fault(f"{function} raised {said}{hint}", _mark_of(error, component.text, component.shown), address)

@@ -9,7 +9,7 @@ from pathlib import Path
 from gaitsim.components.composite import Composite
 from gaitsim.components.contract import read_contract
 from gaitsim.components.find import KIND, SKELETON, Library, shown
-from gaitsim.errors import Usage, did_you_mean
+from gaitsim.errors import Usage, did_you_mean, with_article
 from gaitsim.text.document import parse, plain
 
 _CLASS = re.compile(r"^class \w+\(", re.MULTILINE)
@@ -73,7 +73,9 @@ def new_component(kind: str, name: str, library: Library, like: str | None = Non
     if like is not None:
         other = library.find(like)
         if other.kind != kind:
-            raise Usage(f"--like {like}: this is no {kind}; choose one of {', '.join(library.references(kind))}.")
+            raise Usage(
+                f"--like {like}: this is not {with_article(kind)}; choose one of {', '.join(library.references(kind))}."
+            )
         if isinstance(other, Composite):
             return f"{name}.yaml", other.text
         return f"{name}.py", _CLASS.sub(f"class {class_name}(", other.text, count=1)
@@ -95,7 +97,7 @@ def _check_name(kind: str, name: str, library: Library) -> None:
         move = f"for a kind of your own, write components/{kind}/{KIND} first"
         raise Usage(f"there is no kind {kind}. {did_you_mean(kind, library.kinds())} Or, {move}.")
     if not re.fullmatch(r"[a-z][a-z0-9_]*", name) or keyword.iskeyword(name) or f"{name}.yaml" == KIND:
-        raise Usage(f"{name} is no name for a component; write small letters, digits and _, such as my_{kind}.")
+        raise Usage(f"{name} is not a name for a component; write small letters, digits and _, such as my_{kind}.")
     known = library.path(f"{kind}/{name}")
     if known is not None:
         raise Usage(f"{kind}/{name} is there already ({shown(known)}); choose another name.")

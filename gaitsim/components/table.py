@@ -124,12 +124,12 @@ def _heads(row: Row) -> list[tuple[str, str]]:
     for word in words:
         head = _NAME.fullmatch(word)
         if head is None:
-            faults.add(f'"{word}" is no name with a unit; write such as knee_flexion [deg].', place)
+            faults.add(f'"{word}" is not a name with a unit; write such as knee_flexion [deg].', place)
             continue
         try:
             found.append((head[1], parse_unit(head[2]).text))
         except UnknownUnit:
-            faults.add(f'"{head[2]}" is no known unit; write such as knee_flexion [deg].', place)
+            faults.add(f'"{head[2]}" is not a known unit; write such as knee_flexion [deg].', place)
     faults.raise_if_any()
     if len(found) < 2:
         faults.add("there is one column; a curve needs another beside it.", place)
@@ -178,6 +178,6 @@ def _numbers(row: Row, count: int, decimal_comma: bool, faults: Faults) -> Itera
         except ValueError:
             value = math.nan
         if not math.isfinite(value):
-            said = f'"{word}" is no number' if word else "a number is missing"
+            said = f'"{word}" is not a number' if word else "a number is missing"
             faults.add(f"{said}; write such as 12.5, or remove the row.", place)
         yield value

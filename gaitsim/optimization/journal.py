@@ -152,7 +152,7 @@ def _placed(path: Path) -> Iterator[tuple[int, Evaluation]]:
             except ValueError as error:
                 if _torn(line):
                     return
-                rule = f"this line is no evaluation ({error}); the file was edited or damaged"
+                rule = f"this line is not an evaluation ({error}); the file was edited or damaged"
                 raise DamagedJournal(Fault(f"{rule}; {_MOVE}.", Mark(str(path), number))) from error
             begin += len(line)
 

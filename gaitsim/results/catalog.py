@@ -66,7 +66,7 @@ class Filter:
             try:
                 date.fromisoformat(self.since)
             except ValueError as error:
-                raise Usage(f"--since {self.since}: this is no day; write one such as 2026-11-22.") from error
+                raise Usage(f"--since {self.since}: this is not a day; write one such as 2026-11-22.") from error
         if self.uses is not None and self.uses.count("/") != 1:
             raise Usage(f"--uses {self.uses}: write a component as KIND/NAME, such as muscle/geyer2003.")
 

@@ -61,7 +61,7 @@ def cohort_of(bundle: Bundle) -> Cohort:
     try:
         found = _Cohort.model_validate_json(bundle.files[COHORT])
     except (KeyError, ValidationError) as error:
-        rule = "this is no result of gaitsim cohort" if isinstance(error, KeyError) else "its rows cannot be read"
+        rule = "this is not a result of gaitsim cohort" if isinstance(error, KeyError) else "its rows cannot be read"
         raise BadResult(Fault(f"{rule}; name one, or restore it from a copy.", Mark(str(bundle.folder / COHORT)))) from error
     return Cohort(tuple(Row(row.body, row.settings, row.place) for row in found.rows), found.retune, found.seed)
 

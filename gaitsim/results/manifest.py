@@ -176,7 +176,7 @@ def check_is_result(folder: Path) -> None:
         known = f"; the last are: {', '.join(near[-5:])}" if near else ""
         raise BadResult(f"{folder}: there is no such result{known}. See: gaitsim results list")
     if not (folder / _NAME).is_file():
-        rule = "there is no manifest.json, so this is no result, or one that was never finished being made"
+        rule = "there is no manifest.json, so this is not a result, or one that was never finished being made"
         raise BadResult(f"{folder}: {rule}; name another, or see: gaitsim results list")
 
 

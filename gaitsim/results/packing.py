@@ -70,7 +70,7 @@ def unpack(archive: Path, root: Path) -> Path:
         with zipfile.ZipFile(archive) as file:
             return _unpacked(archive, file, root)
     except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, ValueError) as error:
-        raise BadResult(f"{archive}: this is no zip file, or a damaged one ({error}); {_ANEW}.") from error
+        raise BadResult(f"{archive}: this is not a zip file, or a damaged one ({error}); {_ANEW}.") from error
     except OSError as error:
         where = error.filename or archive
         raise CannotSave(f"{where}: {error.strerror or error}; choose another --results, or another file.") from error
@@ -132,7 +132,7 @@ def _faults(entries: Sequence[zipfile.ZipInfo]) -> Iterator[str]:
         if kind not in (0, stat.S_IFDIR if entry.is_dir() else stat.S_IFREG):
             yield f"{entry.filename!r} is a link or a special file"
         if not (_FOLDERS if entry.is_dir() else _FILES).fullmatch(rest):
-            yield f"{entry.filename!r} is no file of a result"
+            yield f"{entry.filename!r} is not a file of a result"
         if entry.filename.lower() in seen:
             yield f"{entry.filename!r} is in it twice"
         if entry.flag_bits & 1:

@@ -34,7 +34,7 @@ def read_rows(folder: Path, begun: bool = False) -> list[dict[str, Any]]:
             row = json.loads(line)
             tables = (row["settings"], row["metrics"], row.get("values", {}))
             if not all(isinstance(table, dict) for table in tables) or not {*COMPARED} <= {*row}:
-                raise ValueError(f"line {number} is no run")
+                raise ValueError(f"line {number} is not a run")
             rows.append(row)
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise BadResult(Fault(f"this cannot be read ({error}); restore it from a copy.", Mark(str(path)))) from error
@@ -70,7 +70,7 @@ def pick_row(folder: Path, which: str) -> int:
     """
     rows = read_rows(folder)
     if not rows:
-        raise BadResult(f"{folder}: it holds no run; make it anew with gaitsim run.")
+        raise BadResult(f"{folder}: it holds no run; make it again with gaitsim run.")
     if which == "best":
         scored = [i for i, row in enumerate(rows) if row["score"] is not None]
         if scored:

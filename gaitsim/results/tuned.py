@@ -17,7 +17,7 @@ from gaitsim.whole import write_whole
 
 _ABOUT = "Written by gaitsim optimize --adopt; not by hand."
 _FORMAT = 2  # a file that says none has numbers in SI, whatever unit stands beside them
-_ANEW = "write the file anew with optimize --adopt."
+_ANEW = "write the file again with optimize --adopt."
 
 
 @dataclass(frozen=True)
@@ -81,7 +81,7 @@ def read_tuned(path: Path, free: Iterable[Free]) -> TunedValues:
     document = read(path)
     values, result = document.entries.get("values"), document.entries.get("result")
     if not isinstance(values, MappingNode) or not isinstance(result, ScalarNode):
-        raise InvalidSpec(Fault("this holds no tuned values; write it anew with optimize --adopt.", Mark(str(path))))
+        raise InvalidSpec(Fault("this holds no tuned values; write it again with optimize --adopt.", Mark(str(path))))
     stated = document.entries.get("format")
     if stated is not None and not (isinstance(stated, ScalarNode) and stated.value == _FORMAT):
         rule = f"gaitsim reads tuned values of format {_FORMAT}, and this is another"
@@ -115,7 +115,7 @@ def _quantity(node: Node, in_si: bool) -> Quantity:
             quantity = None
         if quantity is not None:
             return quantity
-    raise InvalidSpec(Fault(f"this is no tuned value; {_ANEW}", node.mark))
+    raise InvalidSpec(Fault(f"this is not a tuned value; {_ANEW}", node.mark))
 
 
 def problem_of(model: Model, spread: float = 1.0) -> Problem:

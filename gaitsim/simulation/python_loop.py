@@ -108,7 +108,7 @@ class Checked:
         self._read()
         for i in range(STARTING_ROUNDS):
             early = i < STARTING_ROUNDS - 1
-            # What an early round says of inputs that are not there yet is no failure.
+            # What an early round says of inputs that are not there yet is not a failure.
             with np.errstate(all="ignore") if early else contextlib.nullcontext():
                 self._outputs(0, starting=True, lenient=early)
             self._fill_delays()

@@ -70,7 +70,7 @@ class Wiring:
         mechanical = {a: p.type.outputs for a, p in self.parts.items() if "build" in p.type.functions}
         known = [f"{a}.{name}" for a, outputs in mechanical.items() for name in outputs]
         known += [f"{a}.{name}" for a, p in self.parts.items() for name in p.type.states]
-        self.faults.add(f"{text} is no coordinate and no state. {did_you_mean(text, known)}", mark, "initial")
+        self.faults.add(f"{text} is neither a coordinate nor a state. {did_you_mean(text, known)}", mark, "initial")
         return None
 
     def _followed(self, points: Mapping[str, Sequence[Place]]) -> dict[str, list[Place]]:

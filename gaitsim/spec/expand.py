@@ -84,7 +84,7 @@ class Expansion:
             mark = section.keys[name]
             where = Where(scope.below(name), _join(scope.logical, name), scope, mark, side, measure)
             if not _NAME.fullmatch(name):
-                rule = f'"{name}" is no name; use letters, digits and _ and begin with a letter.'
+                rule = f'"{name}" is not a name; use letters, digits and _ and begin with a letter.'
                 self.faults.add(rule, mark, where.address)
                 self.broken.add(where.address)
                 continue

@@ -204,9 +204,9 @@ def _is_value(node: Node) -> bool:
 def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], MappingNode]) -> MappingNode:
     """Read a parent. A fault of the file as a whole is reported at the place that names it."""
     try:
-        # Whoever wrote `extends:` chose the file: of one that is no spec, no word is repeated.
+        # Whoever wrote `extends:` chose the file: of one that is not a spec, no word is repeated.
         if not _SPEC.search(document.text_of(path, shown)):
-            rule = f"{shown} is no spec, as it has none of a spec's sections, such as parts:"
+            rule = f"{shown} is not a spec, as it has none of a spec's sections, such as parts:"
             raise InvalidSpec(Fault(f"{rule}; name a spec.", mark, "extends"))
         return read(path, shown)
     except InvalidSpec as error:
@@ -272,7 +272,7 @@ def _with(
     if isinstance(node, SequenceNode):
         last = len(node.items) - 1
         if not (word.isascii() and word.isdigit() and len(word) < 10 and int(word) <= last):
-            rule = f"{word} is no item of this list" if node.items else "this list is empty"
+            rule = f"{word} is not an item of this list" if node.items else "this list is empty"
             move = f"number its items from 0 to {last}" if node.items else "set the whole list"
             faults.add(f"{rule}; {move}.", mark, _address(walked))
             return node

@@ -27,7 +27,7 @@ def _known(row: MappingNode, index: int, units: Mapping[str, str], faults: Fault
     entries = row.entries
     what, metric, source = (_text(entries.get(key)) for key in ("what", "metric", "source"))
     if metric not in units:
-        rule = f"{metric} is no metric. {did_you_mean(metric, units)}"
+        rule = f"{metric} is not a metric. {did_you_mean(metric, units)}"
         faults.add(rule, entries["metric"].mark, f"{address}.metric")
         return
     value = number(entries["value"], units[metric], faults, f"{address}.value")

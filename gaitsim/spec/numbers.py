@@ -84,7 +84,7 @@ class NumberTable:
                     raise ArithmeticError("it is not finite")
             except (ArithmeticError, ValueError) as error:
                 said = "it divides by zero" if isinstance(error, ZeroDivisionError) else error
-                rule = f"{each.expression.text} has no value here ({said}); mend it, or the numbers in it."
+                rule = f"{each.expression.text} has no value here ({said}); correct it, or the numbers in it."
                 self.faults.add(rule, node.mark, each.address)
                 return
             self._within(values[i], declared, node, each.address)

@@ -73,7 +73,9 @@ def _terms(
     """The terms of an objective, whose costs are added."""
     if not isinstance(node, MappingNode):
         sample = "{effort: {use: objective/minimize, value: {from: effort}}}"
-        expansion.faults.add(f"{said(node)} is no mapping of names; write such as terms: {sample}.", node.mark, address)
+        expansion.faults.add(
+            f"{said(node)} is not a mapping of names; write such as terms: {sample}.", node.mark, address
+        )
         return ()
     found = []
     for name, term in node.entries.items():
@@ -95,7 +97,7 @@ def _metrics(alone: Expansion, address: str, units: Mapping[str, str]) -> dict[s
         if wire.sender not in units:
             if not alone.is_broken(wire.sender):
                 hint = did_you_mean(wire.sender, units)
-                alone.faults.add(f"{wire.sender} is no metric. {hint}", wire.mark, wire.target)
+                alone.faults.add(f"{wire.sender} is not a metric. {hint}", wire.mark, wire.target)
             continue
         given, asked = units[wire.sender], alone.parts[0].type.inputs[name].unit
         if "*" not in (given, asked) and parse_unit(given).dimension != parse_unit(asked).dimension:

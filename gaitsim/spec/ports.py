@@ -71,7 +71,7 @@ class PortReader:
             return
         text = given.value if isinstance(given, ScalarNode) else None
         if isinstance(text, str) and text[:1] not in "=+-.0123456789":
-            rule = f'"{text}" is no number; to connect this input, write {name}: {{from: {text}}}.'
+            rule = f'"{text}" is not a number; to connect this input, write {name}: {{from: {text}}}.'
             self.faults.add(rule, given.mark, port)
             return
         self.constants.append(Constant(port, f"{where.logical}.{name}", given, where.scope.names))
@@ -101,7 +101,7 @@ class PortReader:
                     self._send(name, target, where)
                 else:
                     hint = did_you_mean(name, outputs)
-                    self.faults.add(f"{name} is no output of this part. {hint}", given.keys[name], where.address)
+                    self.faults.add(f"{name} is not an output of this part. {hint}", given.keys[name], where.address)
         elif len(outputs) == 1:
             self._send(outputs[0], given, where)
         else:

@@ -9,7 +9,7 @@ from gaitsim.component import Parameter
 from gaitsim.components.composite import declared_parameters
 from gaitsim.components.find import Library
 from gaitsim.components.primitive import Primitive
-from gaitsim.errors import Faults, did_you_mean
+from gaitsim.errors import Faults, did_you_mean, with_article
 from gaitsim.model import WORLD, Model, Part, Simulate, metric_units
 from gaitsim.spec.connect import Wiring
 from gaitsim.spec.expand import Expansion, sides
@@ -104,7 +104,7 @@ def _long_steps(parts: Iterable[Part], step: float) -> list[str]:
         if step > part.type.largest_step * (1 + 1e-9):
             beyond.setdefault(part.type, []).append(part.address)
     return [
-        f"warning: {kind.reference} ({_few(addresses)}) is right up to a step of {1e3 * kind.largest_step:g} ms, "
+        f"warning: {kind.reference} ({_few(addresses)}) is accurate up to a step of {1e3 * kind.largest_step:g} ms, "
         f"and simulate.step is {1e3 * step:g} ms; see gaitsim library show {kind.reference}"
         for kind, addresses in beyond.items()
     ]
@@ -130,7 +130,7 @@ def _kinds(document: MappingNode, library: Library, faults: Faults) -> dict[str,
         elif reference not in library.references():
             faults.add(library.unknown(reference), node.mark, f"use_for.{kind}")
         elif reference.split("/")[0] != kind:
-            rule = f"{reference} is no {kind}; choose {', '.join(library.references(kind))}."
+            rule = f"{reference} is not {with_article(kind)}; choose {', '.join(library.references(kind))}."
             faults.add(rule, node.mark, f"use_for.{kind}")
         else:
             found[kind] = entry

@@ -65,7 +65,7 @@ def _combination(value: object) -> str:
     word, _, share = text.partition(" ")
     if text in ("mean", "worst") or (word == "quantile" and _SHARE.fullmatch(share)):
         return text
-    said = f'"{value}" is no way' if isinstance(value, str | int | float) else "this is no way"
+    said = f'"{value}" is not a way' if isinstance(value, str | int | float) else "this is not a way"
     rule = f"{said} to combine scores; write mean, worst, or such as quantile 0.9 (from 0 to 1)."
     raise PydanticCustomError("quantity", "{text}", {"text": rule})
 
@@ -215,7 +215,7 @@ def _check_steps(simulate: SimulateSection, document: MappingNode, faults: Fault
     if not 1 <= steps <= _MOST_STEPS:
         rule = f"a step of {simulate.step:g} s is longer than the duration, {simulate.duration:g} s"
         if steps > 1:
-            rule = f"{simulate.duration:g} s are {steps:.3g} steps of {simulate.step:g} s; the most are {_MOST_STEPS:g}"
+            rule = f"{simulate.duration:g} s are {steps:.3g} steps of {simulate.step:g} s; the limit is {_MOST_STEPS:g}"
         move = "write a shorter duration or a longer step" if steps > 1 else "write a shorter step"
         faults.add(f"{rule}; {move}.", _mark(document, ["simulate", "step"]), "simulate.step")
 
@@ -237,7 +237,7 @@ def _report(detail: Any, document: MappingNode, faults: Faults) -> None:
         case "quantity":
             faults.add(detail["msg"], mark, address)
         case "literal_error" if path == ["gaitsim"]:
-            faults.add(f'"{detail["input"]}" is no version of this grammar; write gaitsim: 1.', mark, address)
+            faults.add(f'"{detail["input"]}" is not a version of this grammar; write gaitsim: 1.', mark, address)
         case "literal_error":
             choices = detail["ctx"]["expected"].replace("'", "")
             faults.add(f'"{detail["input"]}" is not offered; choose {choices}.', mark, address)
@@ -250,9 +250,9 @@ def _report(detail: Any, document: MappingNode, faults: Faults) -> None:
             (limit,) = (f"{words[key]} {value:g}" for key, value in detail["ctx"].items() if key in words)
             faults.add(f"{detail['input']} is out of range; this is {limit}.", mark, address)
         case "float_type" | "float_parsing":
-            faults.add(f'"{detail["input"]}" is no number; write {name}: 0.5.', mark, address)
+            faults.add(f'"{detail["input"]}" is not a number; write {name}: 0.5.', mark, address)
         case "int_type" | "int_parsing" | "int_from_float":
-            faults.add(f'"{detail["input"]}" is no whole number; write {name}: 16.', mark, address)
+            faults.add(f'"{detail["input"]}" is not a whole number; write {name}: 16.', mark, address)
         case kind:
             wanted = {"string_type": "a text", "list_type": "a list"}.get(kind, "a mapping of names")
             move = f"; write {sample}" if sample else ""

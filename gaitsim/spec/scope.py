@@ -75,7 +75,7 @@ def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:
         found = where.scope.attachments.get(text[1:])
         if found is None:
             hint = did_you_mean(text[1:], where.scope.attachments)
-            faults.add(f"{text} is no attachment of this mask. {hint}", mark, where.address)
+            faults.add(f"{text} is not an attachment of this mask. {hint}", mark, where.address)
         return found or None
     first, _, rest = text.partition(".")
     known: list[str] = []

@@ -99,7 +99,9 @@ def _table(section: Node | None, key: Mark | None, base: MappingNode, name: str)
     word = name.rpartition(".")[2]
     for item in section.items if isinstance(section, SequenceNode) else (section,):
         if not isinstance(item, MappingNode) or item is section:
-            rule = f"{said(item)} is no list of overrides; write {word}: [{{feedback.gain: 2}}, {{feedback.gain: 3}}]."
+            rule = (
+                f"{said(item)} is not a list of overrides; write {word}: [{{feedback.gain: 2}}, {{feedback.gain: 3}}]."
+            )
             faults.add(rule, key if item is section else item.mark, name)
             continue
         row = base

@@ -150,7 +150,7 @@ def archived(words: Sequence[str], folders: Sequence[Path] = ()) -> list[Archive
             one = [Archived(word, path, extra)]
         else:
             hint = did_you_mean(word, known)
-            raise Usage(f"{word}: this is no shipped spec, no .yaml file and no folder. {hint}")
+            raise Usage(f"{word}: this is neither a shipped spec, nor a .yaml file, nor a folder. {hint}")
         if not one:
             raise Usage(f"{word}: there is no spec in this folder; name one that has some.")
         found |= {each.path.resolve(): each for each in one}

@@ -97,7 +97,7 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
     except OSError as error:
         raise Usage(f"{path}: this cannot be read ({error.strerror or error}); name a table of bodies.") from error
     except UnicodeDecodeError as error:
-        rule = "this is no text in UTF-8; save it as CSV, in a spreadsheet as CSV UTF-8"
+        rule = "this is not a text in UTF-8; save it as CSV, in a spreadsheet as CSV UTF-8"
         raise InvalidSpec(Fault(f"{rule}.", Mark(str(path)))) from error
     heading = next((line for line in text.splitlines() if line.strip()), "")
     separator = next((sign for sign in (";", "\t") if sign in heading), ",")
@@ -105,7 +105,7 @@ def _lines(path: Path) -> list[tuple[int, list[str]]]:
         reader = csv.reader(text.splitlines(), delimiter=separator, strict=True)
         lines = [(reader.line_num, [cell.strip() for cell in cells]) for cells in reader]
     except csv.Error as error:
-        rule = f"this is no table of separated values ({error}); save it as CSV"
+        rule = f"this is not a table of separated values ({error}); save it as CSV"
         raise InvalidSpec(Fault(f"{rule}.", Mark(str(path)))) from error
     found = [(number, cells) for number, cells in lines if any(cells)]
     if not found:
@@ -130,7 +130,7 @@ def _columns(heading: Sequence[str], mark: Mark, faults: Faults) -> list[_Column
         try:
             parse_unit(unit or "1")
         except UnknownUnit:
-            rule = f"{unit} is no unit that is known; write such as height [m], height [cm] or mass [kg]"
+            rule = f"{unit} is not a unit that is known; write such as height [m], height [cm] or mass [kg]"
             faults.add(f"{rule}.", mark, word)
     for address, count in Counter(column.address for column in columns).items():
         if count > 1:

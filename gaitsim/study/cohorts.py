@@ -255,7 +255,7 @@ def resumed_cohort(opening: Opening) -> CohortRuns:
     changed = changed_versions(manifest)
     if changed:
         rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
-        raise BadResult(f"{opening.path}: {rule}; install those, or begin anew.")
+        raise BadResult(f"{opening.path}: {rule}; install those, or start again.")
     model, rows = opened.model(), read_rows(opening.path, begun=True)
     mode: Mode = "normal" if manifest["mode"] == "normal" else "rapid"
     keeping = Keeping(None, replace(opened, more={COHORT: bundle.files[COHORT]}), [model], mode)

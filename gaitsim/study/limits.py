@@ -78,7 +78,7 @@ def until_of(text: str | None, model: Model) -> Until:
         return Until()
     metric, value = split_setting(text, "--until")
     if metric not in model.metrics:
-        raise Usage(f"--until {text}: {metric} is no metric of this spec. {did_you_mean(metric, model.metrics)}")
+        raise Usage(f"--until {text}: {metric} is not a metric of this spec. {did_you_mean(metric, model.metrics)}")
     unit = parse_unit(model.metrics[metric])
     try:
         quantity = quantity_of(value, unit.text)
@@ -311,7 +311,7 @@ def resumed(opening: Opening, listener: Listener) -> Hunt:
     changed = changed_versions(dict(opened.manifest))
     if changed:
         rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
-        raise BadResult(f"{opening.path}: {rule}; install those, or begin anew.")
+        raise BadResult(f"{opening.path}: {rule}; install those, or start again.")
     rows = read_rows(opening.path, begun=True)
     mode: Mode = "normal" if opened.manifest["mode"] == "normal" else "rapid"
     hunt = _hunt(opened, opening, limits, asked, mode, None, listener)
@@ -330,7 +330,7 @@ def _recorded(folder: Path, manifest: Mapping[str, Any]) -> tuple[dict[str, Any]
         Usage: The request does not fit.
     """
     if "limit" not in manifest:
-        raise BadResult(f"{folder}: this is no result of gaitsim limit, so there is nothing to resume.")
+        raise BadResult(f"{folder}: this is not a result of gaitsim limit, so there is nothing to resume.")
     try:
         asked = _Asked.model_validate(manifest["limit"])
         scan = Scan(asked.points, asked.tolerance)

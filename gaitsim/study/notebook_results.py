@@ -105,7 +105,7 @@ def import_result(file: File, *, results: File | None = None) -> Imported:
         Its folder, and which code it brings.
 
     Raises:
-        GaitsimError: The file is no result or damaged, or one of its name is there.
+        GaitsimError: The file is not a result or damaged, or one of its name is there.
     """
     from gaitsim.components.find import library_folders
     from gaitsim.results.copies import copies

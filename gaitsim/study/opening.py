@@ -185,7 +185,9 @@ def started_from(opened: Opened, opening: Opening, origin: str | None) -> tuple[
     else:
         where, result = origin, Opening(result_named(Path(origin), opening.results), trusted=opening.trusted)
         if not result.names_result:
-            raise Usage(f"--from {where}: this is no result; write tuned, middle, or a folder of gaitsim results list.")
+            raise Usage(
+                f"--from {where}: this is not a result; write tuned, middle, or a folder of gaitsim results list."
+            )
         values = dict(result.open().starts)
     addresses = [f.address for f in free]
     matched = [a for a in addresses if a in values]

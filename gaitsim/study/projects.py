@@ -99,7 +99,7 @@ def projects(place: Path) -> list[Project]:
     """The projects of the lab that a folder belongs to, by name. A project with a damaged file has its folder only."""
     lab = lab_of(place)
     if lab is None:
-        raise Usage(f"no folder above this one has a {LAB}, so this is no lab; gaitsim new project NAME makes one.")
+        raise Usage(f"no folder above this one has a {LAB}, so this is not a lab; gaitsim new project NAME makes one.")
     return [_read(path) for path in sorted((lab / _PROJECTS).glob(f"*/{PROJECT}"))]
 
 
@@ -196,7 +196,7 @@ def _opening(origin: str, results: Path | None, trusted: bool) -> Opening:
     shipped = shipped_specs()
     if origin in shipped:
         return Opening(shipped[origin])
-    rule = "this is no result, no spec, and no model that is shipped"
+    rule = "this is neither a result, nor a spec, nor a shipped model"
     raise Usage(f"--from {origin}: {rule}. {did_you_mean(origin, shipped)}")
 
 

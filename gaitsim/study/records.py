@@ -141,13 +141,13 @@ def read_record(spec: Path) -> Recorded:
     found = _DIGEST.search(text)
     body = text[: found.start()] if found else text
     if found is None or digest_of(body)[:SHORT] != found[1]:
-        rule = "this record was damaged or edited; restore it from a copy, or write it anew with"
+        rule = "this record was damaged or edited; restore it from a copy, or write it again with"
         raise BadRecord(Fault(f"{rule}: {again}", Mark(shown(path))))
     try:
         return Recorded.model_validate(plain(parse(body, shown(path))))
     except ValidationError as error:
         place = ".".join(map(str, error.errors()[0]["loc"]))
-        rule = f"this record is of another format ({place}: {error.errors()[0]['msg']}); write it anew with"
+        rule = f"this record is of another format ({place}: {error.errors()[0]['msg']}); write it again with"
         raise BadRecord(Fault(f"{rule}: {again}", Mark(shown(path)))) from error
 
 

@@ -315,7 +315,7 @@ def _specs_in(folder: Path) -> list[str]:
 
 def _missing(path: Path) -> str:
     if path.is_symlink():
-        return f"this links to {path.readlink()}, which does not exist; mend the link."
+        return f"this links to {path.readlink()}, which does not exist; correct the link."
     if not path.parent.is_dir():
         return f"there is no folder {path.parent}; check the path."
     names = _specs_in(path.parent)

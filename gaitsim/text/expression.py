@@ -121,7 +121,7 @@ def _dimension(node: ast.expr, units: Mapping[str, Dimension], text: str) -> Dim
         case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if name in _FUNCTIONS:
             return _call(name, [_dimension(a, units, text) for a in args], text)
         case ast.Call(func=ast.Name(id=name)):
-            raise BadExpression(f"{name}() is no function of expressions. {did_you_mean(name, _FUNCTIONS)}")
+            raise BadExpression(f"{name}() is not a function of expressions. {did_you_mean(name, _FUNCTIONS)}")
     raise BadExpression(f"={text}: {_RULE}")
 
 
@@ -131,7 +131,7 @@ def _named(name: str, units: Mapping[str, Dimension]) -> Dimension:
     if name in _CONSTANTS:
         return _PLAIN
     hint = did_you_mean(name, units) if units else "It has none; write parameters: first."
-    raise BadExpression(f"{name} is no parameter of this mask. {hint}")
+    raise BadExpression(f"{name} is not a parameter of this mask. {hint}")
 
 
 def _operation(

@@ -72,7 +72,7 @@ def quantity_of(text: str | float, unit: str) -> Quantity:
     except UnknownUnit as error:
         raise BadQuantity(in_plain_letters(text) or unknown_unit(str(error))) from error
     if quantity is None:
-        raise BadQuantity(in_plain_letters(text) or f'"{text}" is no number; {needed(unit)}.')
+        raise BadQuantity(in_plain_letters(text) or f'"{text}" is not a number; {needed(unit)}.')
     wrong = mismatch(quantity, parse_unit(unit))
     if wrong:
         raise BadQuantity(wrong)
@@ -93,7 +93,7 @@ def in_plain_letters(text: str | float) -> str:
     rule = "numbers have a point, no comma" if "," in written else "a spec has plain letters"
     if "\N{MINUS SIGN}" in str(text) or "\N{EN DASH}" in str(text):
         rule = "a minus is the hyphen of the keyboard"
-    return f'"{text}" is no quantity here: {rule}; write {" or ".join(_quoted(choice) for choice in choices)}.'
+    return f'"{text}" is not a quantity here: {rule}; write {" or ".join(_quoted(choice) for choice in choices)}.'
 
 
 def _quoted(text: str) -> str:
@@ -111,14 +111,14 @@ def unknown_unit(text: str) -> str:
     """The message for a text that is not a unit."""
     wrong = next((word for word in re.findall(r"[A-Za-z%]+", text) if not _is_unit(word)), "")
     if not wrong:
-        return f'"{text}" is no unit; write one such as N m/rad or kg m^2.'
+        return f'"{text}" is not a unit; write one such as N m/rad or kg m^2.'
     for i in range(1, len(wrong)):
         first, second = wrong[:i], wrong[i:]
         if {first, second} <= set(known_units()):
-            return f'"{wrong}" is no known unit. Did you mean "{first} {second}"?'
+            return f'"{wrong}" is not a known unit. Did you mean "{first} {second}"?'
     near = nearest(wrong, known_units())
     hint = f"Did you mean {near}?" if near else f"Known are {', '.join(known_units())}."
-    return f'"{wrong}" is no known unit. {hint}'
+    return f'"{wrong}" is not a known unit. {hint}'
 
 
 def _is_unit(text: str) -> bool:
@@ -166,7 +166,7 @@ def number(node: Node, unit: str, faults: Faults, address: str) -> float | None:
     """
     if not isinstance(node, ScalarNode) or isinstance(node.value, bool) or node.value is None:
         hint = comma_within(node) if isinstance(node, SequenceNode) else ""
-        faults.add(f"{said(node)} is no number; {needed(unit)}.{hint}", node.mark, address)
+        faults.add(f"{said(node)} is not a number; {needed(unit)}.{hint}", node.mark, address)
         return None
     try:
         return quantity_of(node.value, unit).value

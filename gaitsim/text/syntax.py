@@ -42,7 +42,7 @@ def explained(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[str, int, 
         return f"this quote is never closed; write {opener} where the text ends.", *opened
     if "a flow " in context and "expected ','" in problem:
         closer = "]" if "sequence" in context else "}"
-        begin = max(0, at.column - 200)  # a longer word is no name with a side
+        begin = max(0, at.column - 200)  # a longer word is not a name with a side
         column, near = at.column - begin, line[begin : at.column + 200]
         word = next((w[0] for w in _BRACED.finditer(near) if w.start() < column < w.end()), "")
         if letter == "{" and word:

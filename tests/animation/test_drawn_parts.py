@@ -103,6 +103,6 @@ def test_a_joint_that_keeps_its_coordinate_to_itself_is_named(tmp_path: Path) ->
     assert fault.mark is not None and fault.mark.line == 4
     assert fault.address == "rail.along"
     assert fault.message == (
-        "no output tells this joint's coordinate, so its motion was not recorded; "
+        "no output reports this joint's coordinate, so its motion was not recorded; "
         'declare an output and mj.read("angle", joint, "qpos") in its component\'s build.'
     )

@@ -334,7 +334,7 @@ def strange(folder: Path) -> None:
 BAD = {
     damaged: "{0}: spec.yaml was edited after it was made, so it would not re-run as it was; "
     "restore them, or copy the folder's spec.yaml and run that.",
-    without_manifest: "{0}: there is no manifest.json, so this is no result, or one that was never finished being "
+    without_manifest: "{0}: there is no manifest.json, so this is not a result, or one that was never finished being "
     "made; name another, or see: gaitsim results list",
     strange: "{0}: running it would run code that this machine does not know: {0}/components/controller/brake.py; "
     "read these files, then use --trust.",
@@ -365,7 +365,7 @@ USAGE = {
     ("--from-time", "2 kg"): "--from-time 2 kg: write a time, such as '2 s' or '300 ms'.",
     ("--every", "50 %"): "--every 50 %: write a time, such as '2 s' or '300 ms'.",
     ("--from-time", "0,5 s"): (
-        '--from-time 0,5 s: "0,5 s" is no quantity here: numbers have a point, no comma; write "0.5 s".'
+        '--from-time 0,5 s: "0,5 s" is not a quantity here: numbers have a point, no comma; write "0.5 s".'
     ),
     ("--every", "soon"): "--every soon: write a time, such as '2 s' or '300 ms'.",
     ("--to-time", "late"): "--to-time late: write a time, such as '2 s' or '300 ms'.",

@@ -181,7 +181,7 @@ def test_a_record_that_is_missing_or_was_edited_costs_only_its_model(
     said = check(capsys, ".")
     assert (said.code, said.out) == (4, "1 of 3 models do what was recorded")
     assert said.err == (
-        "records/broken.yaml: this record was damaged or edited; restore it from a copy, or write it anew with: "
+        "records/broken.yaml: this record was damaged or edited; restore it from a copy, or write it again with: "
         "gaitsim archive record broken.yaml\n"
         "records/other.yaml: there is no record of this model; write it with: gaitsim archive record other.yaml\n"
     )
@@ -216,7 +216,10 @@ def test_runs_of_a_study_are_recorded_each(hopper: Path, capsys: pytest.CaptureF
 @pytest.mark.parametrize(
     ("word", "said"),
     [
-        ("hoping_geyer2003", "hoping_geyer2003: this is no shipped spec, no .yaml file and no folder. Did you mean"),
+        (
+            "hoping_geyer2003",
+            "hoping_geyer2003: this is neither a shipped spec, nor a .yaml file, nor a folder. Did you mean",
+        ),
         ("components", "components: there is no spec in this folder; name one that has some.\n"),
     ],
 )

@@ -35,7 +35,7 @@ def test_a_change_of_sign_is_a_warning(capsys: pytest.CaptureFixture[str]) -> No
     assert check("--set", SLIPPING, "--json") == 0
     said = capsys.readouterr()
     (warning,) = json.loads(said.out)["warnings"]
-    assert "extensor.path: the moment arm over knee changes sign at 119 deg (looked at: 30 to 140 deg)" in warning
+    assert "extensor.path: the moment arm over knee changes sign at 119 deg (range: 30 to 140 deg)" in warning
     assert warning.endswith("wrap it around the joint, move its points or its side.")
     assert said.err.startswith("warning: ")
 

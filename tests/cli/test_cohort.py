@@ -191,9 +191,9 @@ LACKS = "so no part of its body follows from it; declare it under parameters: an
         ),
         (
             "height [ft]\n6\n",
-            "bodies.csv:1: height: ft is no unit that is known; write such as height [m], height [cm] or mass [kg].",
+            "bodies.csv:1: height: ft is not a unit that is known; write such as height [m], height [cm] or mass [kg].",
         ),
-        ("height [m]\n180 qm\n", 'bodies.csv:2: height: "qm" is no known unit. Did you mean m?'),
+        ("height [m]\n180 qm\n", 'bodies.csv:2: height: "qm" is not a known unit. Did you mean m?'),
         (
             "height\n180\n",
             "bodies.csv:1: height: its numbers have no unit; write it in the first row, such as height [m], "
@@ -201,7 +201,7 @@ LACKS = "so no part of its body follows from it; declare it under parameters: an
         ),
         ("height [m],mass [kg]\n1.8\n", "bodies.csv:2: this row has 1 cells, and the first row names 2 columns; "),
         ("height [m],mass [kg]\n1,75,80\n", "bodies.csv:2: this row has 3 cells, and the first row names 2 columns; "),
-        ("height [m]\n1.8\n \nx\n", 'bodies.csv:4: height: "x" is no number; this needs a length, such as "45 cm".'),
+        ("height [m]\n1.8\n \nx\n", 'bodies.csv:4: height: "x" is not a number; this needs a length, such as "45 cm".'),
         ("height [m],mass [kg]\n1.8,\n", "bodies.csv:2: mass: there is no mass; write it, or leave the row out."),
         (
             "name,height [m]\nann,1.8\nbob,1.7\nann,1.6\n",
@@ -225,7 +225,7 @@ LACKS = "so no part of its body follows from it; declare it under parameters: an
             "name,sex\nann,female\n",
             "bodies.csv:1: sex: this spec has one body for both sexes, as it declares no parameter female; ",
         ),
-        ('a,"b\n', "bodies.csv: this is no table of separated values (unexpected end of data); save it as CSV."),
+        ('a,"b\n', "bodies.csv: this is not a table of separated values (unexpected end of data); save it as CSV."),
     ],
 )
 def test_a_table_that_is_wrong_is_refused_before_anything_is_run(
@@ -264,7 +264,7 @@ def test_bodies_that_all_are_impossible_are_refused(capsys: pytest.CaptureFixtur
 def test_no_text_in_utf_8(capsys: pytest.CaptureFixture[str]) -> None:
     Path("bodies.csv").write_bytes("name,height [m]\nJörg,1.8\n".encode("latin-1"))
     said = cohort(capsys)
-    assert said.err == "bodies.csv: this is no text in UTF-8; save it as CSV, in a spreadsheet as CSV UTF-8.\n"
+    assert said.err == "bodies.csv: this is not a text in UTF-8; save it as CSV, in a spreadsheet as CSV UTF-8.\n"
 
 
 @pytest.mark.parametrize(
@@ -312,7 +312,7 @@ def test_another_result_is_no_cohort(capsys: pytest.CaptureFixture[str]) -> None
     said = gaitsim(capsys, "cohort", result, "--resume")
     assert (said.code, said.err) == (
         3,
-        f"{result}/cohort.json: this is no result of gaitsim cohort; name one, or restore it from a copy.\n",
+        f"{result}/cohort.json: this is not a result of gaitsim cohort; name one, or restore it from a copy.\n",
     )
 
 

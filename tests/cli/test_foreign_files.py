@@ -38,7 +38,8 @@ def test_a_parent_that_is_no_spec(text: str, gaitsim: Callable[..., Said]) -> No
     said = gaitsim("check", "spec.yaml", "--json")
     assert said.code == 3 and "hushhush" not in said.out + said.err
     assert said.err == (
-        "spec.yaml:2:10: extends: shadow is no spec, as it has none of a spec's sections, such as parts:; name a spec."
+        "spec.yaml:2:10: extends: shadow is not a spec, as it has none of a spec's sections, such as parts:; "
+        "name a spec."
         "\n    2 | extends: shadow\n      |          ^\n"
     )
 

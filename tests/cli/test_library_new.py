@@ -62,11 +62,14 @@ def test_nothing_is_written_over(capsys: pytest.CaptureFixture[str]) -> None:
     ("words", "said"),
     [
         (["muscl", "mine"], "there is no kind muscl. Did you mean muscle? Or, for a kind of your own, write"),
-        (["muscle", "Mine"], "Mine is no name for a component; write small letters, digits and _, such as my_muscle."),
-        (["muscle", "kind"], "kind is no name for a component"),
-        (["muscle", "class"], "class is no name for a component"),
+        (
+            ["muscle", "Mine"],
+            "Mine is not a name for a component; write small letters, digits and _, such as my_muscle.",
+        ),
+        (["muscle", "kind"], "kind is not a name for a component"),
+        (["muscle", "class"], "class is not a name for a component"),
         (["muscle", "geyer2010"], "muscle/geyer2010 is there already ("),
-        (["muscle", "mine", "--like", "path/sites"], "--like path/sites: this is no muscle; choose one of muscle/"),
+        (["muscle", "mine", "--like", "path/sites"], "--like path/sites: this is not a muscle; choose one of muscle/"),
     ],
 )
 def test_what_cannot_be_made_is_told(words: list[str], said: str, capsys: pytest.CaptureFixture[str]) -> None:

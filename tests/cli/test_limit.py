@@ -217,7 +217,7 @@ def test_what_is_no_beginning_and_no_going_on(
 def test_a_run_or_an_edited_result_is_not_resumed(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
     run = json.loads(gaitsim(capsys, "run", str(spec), "--json").out)["result"]
     said = gaitsim(capsys, "limit", run, "--resume")
-    assert said.err.strip() == f"{run}: this is no result of gaitsim limit, so there is nothing to resume."
+    assert said.err.strip() == f"{run}: this is not a result of gaitsim limit, so there is nothing to resume."
     folder = Path(json.loads(gaitsim(capsys, "limit", str(spec), *FINE, "--json").out)["result"])
     path = folder / "manifest.json"
     before = path.read_text()
@@ -268,7 +268,7 @@ FINE = ("--vary", "stone.mass=1 kg:2 kg")
         (
             (*FINE, "--until", "wag=3"),
             2,
-            "--until wag=3: wag is no metric of this spec. Did you mean way?",
+            "--until wag=3: wag is not a metric of this spec. Did you mean way?",
         ),
         (
             (*FINE, "--until", "way=3"),
@@ -278,7 +278,7 @@ FINE = ("--vary", "stone.mass=1 kg:2 kg")
         (
             (*FINE, "--until", "way=far"),
             2,
-            '--until way=far: "far" is no number; this needs a length, such as "45 cm".',
+            '--until way=far: "far" is not a number; this needs a length, such as "45 cm".',
         ),
         (
             (*FINE, "--set", "landed=null"),

@@ -87,7 +87,7 @@ def test_projects_are_found_from_anywhere_below_the_lab(
     said = gaitsim(capsys, "projects")
     assert (said.code, said.err) == (
         2,
-        "no folder above this one has a lab.yaml, so this is no lab; gaitsim new project NAME makes one.\n",
+        "no folder above this one has a lab.yaml, so this is not a lab; gaitsim new project NAME makes one.\n",
     )
 
 
@@ -101,7 +101,10 @@ def test_projects_are_found_from_anywhere_below_the_lab(
             "taken: {lab}/projects/taken is there already; nothing was changed. Choose another name.",
         ),
         (["project", "../x"], "../x: a project's name is that of its folder and its spec: letters, digits, _ and -, a"),
-        (["project", "new", "--from", "nosuch"], "--from nosuch: this is no result, no spec, and no model that is shi"),
+        (
+            ["project", "new", "--from", "nosuch"],
+            "--from nosuch: this is neither a result, nor a spec, nor a shipped model",
+        ),
         (["one", "two"], "two: one folder is made at a time; write gaitsim new FOLDER, or gaitsim new project NAME."),
     ],
 )

@@ -82,7 +82,7 @@ def test_a_search_that_has_not_ended_is_listed_with_its_last_whole_generation(ca
     [
         (["--kind", "walk"], "--kind walk: write run or optimize."),
         (["--status", "dead"], "--status dead: write complete or interrupted or running or damaged."),
-        (["--since", "monday"], "--since monday: this is no day; write one such as 2026-11-22."),
+        (["--since", "monday"], "--since monday: this is not a day; write one such as 2026-11-22."),
         (["--uses", "geyer2003"], "--uses geyer2003: write a component as KIND/NAME, such as muscle/geyer2003."),
     ],
 )

@@ -47,7 +47,7 @@ def closed_port() -> int:
 
 def test_a_closed_port(study: Study) -> None:
     place = f"127.0.0.1:{closed_port()}"
-    rule = f"no scheduler answers at {place} (Connection refused); start one (dask scheduler), or mend the address."
+    rule = f"no scheduler answers at {place} (Connection refused); start one (dask scheduler), or correct the address."
     assert refused(study, "--scheduler", f"tcp://{place}") == f"tcp://{place}: {rule}\n"
 
 
@@ -65,7 +65,7 @@ def test_tls_without_certificates(study: Study) -> None:
 
 
 class listener:
-    """Something that listens and is no scheduler."""
+    """Something that listens and is not a scheduler."""
 
     def __init__(self, says: bytes) -> None:
         self.says, self.socket = says, socket.create_server(("127.0.0.1", 0))

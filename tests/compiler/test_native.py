@@ -16,7 +16,7 @@ from gaitsim.compiler import machine
 
 TESTS = Path(__file__).parents[1]
 TEXT = "define double @thrice(double %x) {\n  %y = fmul double %x, 3.0\n  ret double %y\n}\n"
-DEAD_END = "so nothing is kept and each run compiles anew; set GAITSIM_CACHE to a folder that can be written"
+DEAD_END = "so nothing is kept and each run compiles again; set GAITSIM_CACHE to a folder that can be written"
 
 
 @pytest.fixture(autouse=True)

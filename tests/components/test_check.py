@@ -193,10 +193,10 @@ def test_the_future_and_a_docstring_are_fine() -> None:
 @pytest.mark.parametrize(
     ("declared", "said"),
     [
-        ('Output("N", "F.", usual=(3, 1))', "other: usual (3, 1) is no range; write the lower end first."),
+        ('Output("N", "F.", usual=(3, 1))', "other: usual (3, 1) is not a range; write the lower end first."),
         (
             'Output("N", "F.", possible=(0, "peak"))',
-            "other: possible: peak is no parameter of this mask. Known here: gain.",
+            "other: possible: peak is not a parameter of this mask. Known here: gain.",
         ),
         (
             'Output("N", "F.", usual=(0, "gain"))',

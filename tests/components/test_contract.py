@@ -62,7 +62,7 @@ def test_it_draws_its_curves_or_says_why_it_has_none(path: Path) -> None:
     for graph in drawn:
         assert graph.doc.strip()
         for line in graph.lines:
-            assert np.isfinite(line.y).mean() > 0.5, f"{graph.name}: half of it is no number"
+            assert np.isfinite(line.y).mean() > 0.5, f"{graph.name}: half of it is not a number"
     # A flat line tells nothing: some graph must have shape.
     assert any(np.ptp(line.y[np.isfinite(line.y)]) > 0 for graph in drawn for line in graph.lines)
 

@@ -1,4 +1,4 @@
-"""What a component file may not name. It keeps mistakes out, and is no fence: that is --trust."""
+"""What a component file may not name. It keeps mistakes out, and is not a fence: that is --trust."""
 
 from __future__ import annotations
 

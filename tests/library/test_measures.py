@@ -71,7 +71,7 @@ def test_frequency() -> None:
     # More periods asked for than seen: all that there are.
     every = metrics("measure/frequency", {"signal": signal}, 0.01, average=15)
     assert every["value"] == pytest.approx(4 / 1.0)
-    # On from the start is no rise, and one rise makes no period.
+    # On from the start is not a rise, and one rise makes no period.
     assert metrics("measure/frequency", {"signal": blocks(0, 5, 5, 5)}, 0.01) == {"value": NAN}
 
 

@@ -74,8 +74,11 @@ def _even(low: int, high: int, step: int = 2) -> str:
     ("text", "said"),
     [
         ("# only words\n", "bad.csv: a table has a row of names with units, such as cycle [%],knee_flexion [deg], "),
-        ("cycle [%],knee\n0,1\n1,2\n", 'bad.csv:1: "knee" is no name with a unit; write such as knee_flexion [deg].'),
-        ("cycle [%],knee [dog]\n0,1\n1,2\n", 'bad.csv:1: "dog" is no known unit; write such as knee_flexion [deg].'),
+        (
+            "cycle [%],knee\n0,1\n1,2\n",
+            'bad.csv:1: "knee" is not a name with a unit; write such as knee_flexion [deg].',
+        ),
+        ("cycle [%],knee [dog]\n0,1\n1,2\n", 'bad.csv:1: "dog" is not a known unit; write such as knee_flexion [deg].'),
         ("cycle [%]\n0\n1\n", "bad.csv:1: there is one column; a curve needs another beside it."),
         (
             "cycle [%],knee [deg],knee [rad]\n0,1,1\n1,1,1\n",
@@ -89,8 +92,8 @@ def _even(low: int, high: int, step: int = 2) -> str:
         ("cycle [%],knee [deg]\n0,1\n1\n", "bad.csv:3: this row has 1 numbers, and there are 2 names."),
         (
             "cycle [%],knee [deg]\n0,1\n1,x\n2,nan\n3,\n",
-            'bad.csv:3: "x" is no number; write such as 12.5, or remove the row.\n'
-            'bad.csv:4: "nan" is no number; write such as 12.5, or remove the row.\n'
+            'bad.csv:3: "x" is not a number; write such as 12.5, or remove the row.\n'
+            'bad.csv:4: "nan" is not a number; write such as 12.5, or remove the row.\n'
             "bad.csv:5: a number is missing; write such as 12.5, or remove the row.",
         ),
         (
@@ -249,7 +252,7 @@ def test_a_result_takes_its_recorded_curves_along_and_cites_them(tmp_path: Path)
             "norms/fukuchi2018_walking_moments.ankle_plantarflexion_moment_sd.",
         ),
         ("[1 deg]", "knee.curve: a curve has two numbers or more, at equal distances."),
-        ("[1 deg, often]", 'knee.curve.1: "often" is no number'),
+        ("[1 deg, often]", 'knee.curve.1: "often" is not a number'),
     ],
 )
 def test_a_bad_curve_is_told_with_its_place(curve: str, said: str) -> None:

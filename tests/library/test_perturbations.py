@@ -47,7 +47,7 @@ def last(text: str, signal: str, mode: Mode) -> float:
     [("forward", "forward_velocity", 50), ("up", "upward_velocity", 50), ("forward", "forward_velocity", -50)],
 )
 def test_a_push_changes_the_momentum_by_its_impulse(direction: str, signal: str, strength: float, mode: Mode) -> None:
-    """50 N for 103.3 ms on 4 kg, although that is no whole number of steps."""
+    """50 N for 103.3 ms on 4 kg, although that is not a whole number of steps."""
     text = FLOATING.replace("strength: 50 N", f"strength: {strength} N, direction: {direction}")
     assert last(text, f"root.{signal}", mode) == pytest.approx(strength * 0.1033 / 4, rel=1e-9)
 

@@ -41,7 +41,7 @@ MADE: dict[str, tuple[Callable[[Path], None], str]] = {
 }
 ONLY_SPECS: dict[str, tuple[Callable[[Path], None], str]] = {
     "folder": (Path.mkdir, "this is a folder; it holds no .yaml file."),
-    "link": (link, "this links to nowhere.yaml, which does not exist; mend the link."),
+    "link": (link, "this links to nowhere.yaml, which does not exist; correct the link."),
 }
 if hasattr(os, "mkfifo"):
     ONLY_SPECS["pipe"] = (os.mkfifo, "this is a pipe or a device; save the spec in a file and name it.")

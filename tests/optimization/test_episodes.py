@@ -180,17 +180,17 @@ _PROPORTIONAL = "balance.proportional"
     [
         (
             "optimize.combine=best",
-            'optimize.combine: "best" is no way to combine scores; '
+            'optimize.combine: "best" is not a way to combine scores; '
             "write mean, worst, or such as quantile 0.9 (from 0 to 1).",
         ),
         (
             "optimize.combine=quantile 1.5",
-            'optimize.combine: "quantile 1.5" is no way to combine scores; '
+            'optimize.combine: "quantile 1.5" is not a way to combine scores; '
             "write mean, worst, or such as quantile 0.9 (from 0 to 1).",
         ),
         (
             "optimize.combine=[mean]",
-            "optimize.combine: this is no way to combine scores; "
+            "optimize.combine: this is not a way to combine scores; "
             "write mean, worst, or such as quantile 0.9 (from 0 to 1).",
         ),
         (

@@ -277,7 +277,7 @@ def test_an_edited_line_is_named(tmp_path: Path, change: Any, words: str) -> Non
         with pytest.raises(DamagedJournal) as told:
             use()
         said = str(told.value)
-        assert said.startswith(f"{tmp_path / 'evaluations.jsonl'}:4: this line is no evaluation ({words}")
+        assert said.startswith(f"{tmp_path / 'evaluations.jsonl'}:4: this line is not an evaluation ({words}")
         rule = "); the file was edited or damaged"
         assert said.endswith(f"{rule}; restore it from a copy, or start a new search with --from.")
 

@@ -65,7 +65,7 @@ def test_worse_values_are_replaced_whatever_score_they_had(command: Any) -> None
 def test_a_damaged_file_stays_without_force(command: Any) -> None:
     TUNED.write_text("gains: 3\n")
     ended = command("optimize", "spec.yaml", *SEARCH, "--adopt")
-    rule = "its values cannot be compared, as this holds no tuned values; write it anew with optimize --adopt"
+    rule = "its values cannot be compared, as this holds no tuned values; write it again with optimize --adopt"
     assert ended.code == 2
     assert f"spec.tuned.yaml is kept: {rule}. To replace it: gaitsim optimize spec.yaml --resume" in ended.err
     assert TUNED.read_text() == "gains: 3\n"

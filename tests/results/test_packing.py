@@ -133,17 +133,17 @@ def packed(entries: Entries, change: Callable[[zipfile.ZipInfo], None] = lambda 
 @pytest.mark.parametrize(
     ("entries", "rule"),
     [
-        ([("R/../../evil.py", "")], "'R/../../evil.py' is no file of a result"),
+        ([("R/../../evil.py", "")], "'R/../../evil.py' is not a file of a result"),
         ([("../evil.py", "")], "'../evil.py' does not lie in one folder named after the result"),
         ([("/etc/evil.py", "")], "'/etc/evil.py' does not lie in one folder named after the result"),
-        ([("R/components/a/../../x.py", "")], "'R/components/a/../../x.py' is no file of a result"),
+        ([("R/components/a/../../x.py", "")], "'R/components/a/../../x.py' is not a file of a result"),
         ([("R\\manifest.json", "")], r"'R\\manifest.json' does not lie in one folder named after the result"),
         ([("C:/manifest.json", "")], "'C:/manifest.json' does not lie in one folder named after the result"),
         ([("R/manifest.json", ""), ("S/spec.yaml", "")], "'S/spec.yaml' does not lie in one folder named after the resul"),
-        ([("R/manifest.json", ""), ("R/Manifest.json", "")], "'R/Manifest.json' is no file of a result"),
+        ([("R/manifest.json", ""), ("R/Manifest.json", "")], "'R/Manifest.json' is not a file of a result"),
         ([("R/spec.yaml", ""), ("R/spec.yaml", "")], "'R/spec.yaml' is in it twice"),
-        ([("R/lock", "")], "'R/lock' is no file of a result"),
-        ([("R/sitecustomize.py", "")], "'R/sitecustomize.py' is no file of a result"),
+        ([("R/lock", "")], "'R/lock' is not a file of a result"),
+        ([("R/sitecustomize.py", "")], "'R/sitecustomize.py' is not a file of a result"),
         ([("R.partial/spec.yaml", "")], "'R.partial/spec.yaml' does not lie in one folder named after the result"),
         ([], "it is empty"),
     ],
@@ -175,11 +175,11 @@ def test_links_bombs_and_damage_are_refused(
     gaitsim("results", "export", str(result), "--out", "whole.zip")
     whole = Path("whole.zip").read_bytes()
     Path("cut.zip").write_bytes(whole[: len(whole) // 2])
-    assert gaitsim("results", "import", "cut.zip").err.startswith("cut.zip: this is no zip file, or a damaged one (")
+    assert gaitsim("results", "import", "cut.zip").err.startswith("cut.zip: this is not a zip file, or a damaged one (")
     place = whole.index(b"spec.yaml") + 20
     Path("flipped.zip").write_bytes(whole[:place] + bytes([whole[place] ^ 255]) + whole[place + 1 :])
     said = gaitsim("results", "import", "flipped.zip", "--results", "other")
-    assert said.err.startswith("flipped.zip: this is no zip file, or a damaged one (")
+    assert said.err.startswith("flipped.zip: this is not a zip file, or a damaged one (")
     assert list(Path("other").iterdir()) == []
     assert gaitsim("results", "import", "none.zip").code == 3
 

@@ -195,7 +195,7 @@ def test_a_tuned_value_outside_its_bounds_is_told(searched: Path, command: Any) 
         "run", "spec.yaml", "--no-save", "--json", "--set", "odd.angle={value: 30 deg, tune: [25 deg, 40 deg]}"
     )
     was = parse_unit("deg").shown(best_of(searched)["odd.angle"])
-    rule = f"{was} from spec.tuned.yaml is outside 25 to 40 deg, so it starts at 25 deg; widen tune, or tune it anew."
+    rule = f"{was} from spec.tuned.yaml is outside 25 to 40 deg, so it starts at 25 deg; widen tune, or tune it again."
     assert f"warning: odd.angle: {rule}\n" in ended.err
     assert ended.data["metrics"]["told"] == pytest.approx(25)
 

@@ -126,7 +126,7 @@ def test_a_step_longer_than_declared_is_told(tmp_path: Path) -> None:
     model = limited(tmp_path, '"ms", "Right to 1 % in a trial.", 2')
     (notice,) = model.notices
     assert notice == (
-        "warning: outer/outer (one) is right up to a step of 2 ms, and simulate.step is 10 ms; "
+        "warning: outer/outer (one) is accurate up to a step of 2 ms, and simulate.step is 10 ms; "
         "see gaitsim library show outer/outer"
     )
     assert model.parts[0].type.largest_step == 0.002
@@ -140,7 +140,7 @@ def test_a_step_within_the_limit_is_not(limit: str, tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("limit", "said"),
     [
-        ('"m", "Right.", 2', 'largest_step: m is no unit of time; write such as StepLimit("ms", "...", 0.5).'),
+        ('"m", "Right.", 2', 'largest_step: m is not a unit of time; write such as StepLimit("ms", "...", 0.5).'),
         ('"ms", "Right.", 0', "largest_step: value is 0; write a number above 0."),
         ('"ms", "Right.", value=1, most=2', "StepLimit has no most. "),
     ],

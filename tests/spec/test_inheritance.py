@@ -211,12 +211,12 @@ def test_only_what_is_set_bears_the_mark_of_the_setting() -> None:
         (
             "leg.points.2.on",
             "foot",
-            ("--set leg.points.2.on=foot: leg.points: 2 is no item of this list; number its items from 0 to 1."),
+            ("--set leg.points.2.on=foot: leg.points: 2 is not an item of this list; number its items from 0 to 1."),
         ),
         (
             "leg.points.on",
             "foot",
-            ("--set leg.points.on=foot: leg.points: on is no item of this list; number its items from 0 to 1."),
+            ("--set leg.points.on=foot: leg.points: on is not an item of this list; number its items from 0 to 1."),
         ),
         (
             "leg.gain",

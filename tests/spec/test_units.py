@@ -1,4 +1,4 @@
-"""Units as text: what each is worth in SI, and what is no unit."""
+"""Units as text: what each is worth in SI, and what is not a unit."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ def test_a_kind_inside_of_parts_with_a_number(tmp_path: Path) -> None:
     assert references(found)["first.terrain"] == references(found)["second.terrain"] == "terrain/steps"
     assert number(found, "first.terrain.rise") == number(found, "second.terrain.rise") == pytest.approx(-0.03)
     assert found.notices == (
-        "warning: contact/spring_damper (second) is right up to a step of 0.5 ms, "
+        "warning: contact/spring_damper (second) is accurate up to a step of 0.5 ms, "
         "and simulate.step is 1 ms; see gaitsim library show contact/spring_damper",
     )
 
@@ -74,7 +74,7 @@ def test_a_composite_of_the_same_kind_keeps_its_inner_part(tmp_path: Path) -> No
     [
         ("{terrain: 3}", "this names no component; write terrain: terrain/..., or {use: terrain/..., ...}"),
         ("{terrain: {first: 2 m}}", "this names no component; write terrain: terrain/..."),
-        ("{terrain: {use: contact/mujoco}}", "contact/mujoco is no terrain; choose terrain/flat"),
+        ("{terrain: {use: contact/mujoco}}", "contact/mujoco is not a terrain; choose terrain/flat"),
         ("{terrain: {use: terrain/slope, angel: 3 deg}}", "terrain/slope has no angel. Did you mean angle?"),
     ],
 )

@@ -287,7 +287,9 @@ def test_pipes_devices_and_dead_links_are_refused(tmp_path: Path) -> None:
         listener.bind(str(tmp_path / "s"))
         assert file_refusal(tmp_path / "s", "a") == said
     (tmp_path / "link").symlink_to("gone.yaml")
-    assert file_refusal(tmp_path / "link", "a") == ("a: this links to gone.yaml, which does not exist; mend the link.")
+    assert file_refusal(tmp_path / "link", "a") == (
+        "a: this links to gone.yaml, which does not exist; correct the link."
+    )
     (tmp_path / "loop").symlink_to("loop")
     assert file_refusal(tmp_path / "loop", "a") == (
         "a: it cannot be read (Too many levels of symbolic links); check the path."

@@ -52,7 +52,7 @@ def frontal_figures(replay: Replay, legs: Sequence[Leg]) -> list[Drawing]:
 
 _MEDIAL = "medial force"
 _ABDUCTION = "hip abduction moment"
-# Factor and label of what is no angle.
+# Factor and label of what is not an angle.
 _SCALES = {_ABDUCTION: (1.0, "abduction (N m/kg)"), _MEDIAL: (1.0, "medial (body weights)")}
 
 

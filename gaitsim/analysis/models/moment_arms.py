@@ -21,11 +21,11 @@ def warnings(arms: Sequence[MomentArm]) -> list[Fault]:
         # An arm that is a function of the angle is meant to be what it is beyond a joint's own range.
         if arm.turns and arm.alone and (arm.points or arm.limited):
             places = _degrees(arm.turns)
-            rule = f"the moment arm over {arm.hinge.address} changes sign at {places} (looked at: {over})"
+            rule = f"the moment arm over {arm.hinge.address} changes sign at {places} (range: {over})"
             move = "beyond it the path pulls the other way; wrap it around the joint, move its points or its side"
             found.append(Fault(f"{rule}; {move}.", arm.path.mark, arm.path.address))
         elif arm.points and arm.jumps:
-            rule = f"the length jumps at {_degrees(arm.jumps)} of {arm.hinge.address} (looked at: {over})"
+            rule = f"the length jumps at {_degrees(arm.jumps)} of {arm.hinge.address} (range: {over})"
             found.append(Fault(f"{rule}; move the cylinder's side or the points.", arm.path.mark, arm.path.address))
     return found
 

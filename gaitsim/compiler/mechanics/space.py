@@ -42,7 +42,7 @@ def check_slopes(model: Model, made: Made) -> None:
     """
     faults = Faults()
     for part in (model.parts[index] for index in made.collided if made.across):
-        rule = f"{part.type.reference} tells its force along ground that rises straight ahead, and this rises across"
+        rule = f"{part.type.reference} reports its force along ground that rises straight ahead, and this rises across"
         faults.add(f"{rule}; choose contact/spatial_hunt_crossley.", part.mark, part.address)
     faults.raise_if_any()
 

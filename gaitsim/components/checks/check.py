@@ -223,7 +223,7 @@ class _Check:
             elif isinstance(one, Input | Output | State) and not faults:
                 faults = list(range_faults(name, one, self.known))
             if isinstance(one, Metric | Input) and one.like and not isinstance(self.known.get(one.like), Series):
-                faults.append(f"{name}: like is {one.like!r}, and that is no series of this file; write its name.")
+                faults.append(f"{name}: like is {one.like!r}, and that is not a series of this file; write its name.")
             if isinstance(one, Metric | Input) and one.like and one.unit != "*":
                 kind = type(one).__name__
                 rule = f'has the unit of that; write {kind}("*", ...)'

@@ -18,11 +18,11 @@ def curve_faults(
     """The messages for names in a curve that the file does not have."""
     low, high = curve.span
     if not low < high:
-        yield f"{name}: span {curve.span} is no range; write the lower end first."
+        yield f"{name}: span {curve.span} is not a range; write the lower end first."
     outputs = {n for n, one in known.items() if isinstance(one, Output)}
     if curve.of not in outputs | set(functions):
         hint = did_you_mean(curve.of, outputs | set(functions))
-        yield f"{name}: of names {curve.of}, which is no output and no function of this file. {hint}"
+        yield f"{name}: of names {curve.of}, which is neither an output nor a function of this file. {hint}"
         return
     said = [curve.over, *curve.at, *([curve.each[0]] if curve.each else [])]
     if curve.of in outputs:
@@ -41,4 +41,4 @@ def curve_faults(
     for word, value in curve.at.items():
         if isinstance(value, str) and not isinstance(known.get(value), Parameter):
             hint = did_you_mean(value, [n for n, one in known.items() if isinstance(one, Parameter)])
-            yield f"{name}: {word} is to be {value}, which is no parameter. {hint}"
+            yield f"{name}: {word} is to be {value}, which is not a parameter. {hint}"

@@ -116,7 +116,7 @@ def field_faults(name: str, one: Declaration) -> Iterator[str]:
             yield f"{name}: {unit_rule(one.unit)}"
         else:
             if isinstance(one, StepLimit) and unit.dimension != parse_unit("s").dimension:
-                yield f'{name}: {one.unit} is no unit of time; write such as StepLimit("ms", "...", 0.5).'
+                yield f'{name}: {one.unit} is not a unit of time; write such as StepLimit("ms", "...", 0.5).'
     if isinstance(one, Parameter) and one.bounds is not None:
         low, high = one.bounds
         if low > high:

@@ -48,7 +48,7 @@ def range_faults(name: str, one: Ranged, known: Mapping[str, Declaration]) -> It
             yield f"{name}: a range is of one number; leave out {field}."
         low, high = ends
         if not isinstance(low, str) and not isinstance(high, str) and not low < high:
-            yield f"{name}: {field} {ends} is no range; write the lower end first."
+            yield f"{name}: {field} {ends} is not a range; write the lower end first."
         for end in (end for end in ends if isinstance(end, str)):
             try:
                 _expression(end, one.unit, units_of(known))

@@ -27,7 +27,7 @@ def other_seed(folder: Path) -> None:
 
 
 DAMAGES: dict[str, tuple[Any, str]] = {
-    "no manifest": (lambda f: (f / "manifest.json").unlink(), "there is no manifest.json, so this is no result"),
+    "no manifest": (lambda f: (f / "manifest.json").unlink(), "there is no manifest.json, so this is not a result"),
     "manifest garbage": (damage_manifest, "manifest.json: this manifest cannot be read"),
     "manifest is a list": (lambda f: (f / "manifest.json").write_text("[]"), "json: this is [] and no mapping"),
     "search garbage": (damage_search, "what it says about its search cannot be read"),

@@ -56,7 +56,7 @@ def test_nothing_is_tuned(study: Study, command: Any) -> None:
         (["--cluster", "--scheduler", "a:1", "--scheduler-file", "f"], "name two places; leave one out."),
         (["--cluster", "--scheduler", "a:1", "--workers", "2"], "leave it out with --cluster."),
         (["--from", "tuned"], "--from tuned: there is no spec.tuned.yaml; make it with optimize --adopt."),
-        (["--from", "nowhere"], "--from nowhere: this is no result; write tuned, middle, or a folder"),
+        (["--from", "nowhere"], "--from nowhere: this is not a result; write tuned, middle, or a folder"),
         (["--from", "tuned", "--resume"], "--from begins a new search, and --resume continues an old one"),
         (["--smoke", "--resume"], "--smoke begins a new search, and --resume continues an old one"),
         (["--resume", "--generations", "-3"], "--generations -3: this is at least 1."),
