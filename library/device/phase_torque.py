@@ -6,7 +6,8 @@ from ._profile import swell
 class PhaseTorque(Component):
     """A torque over the phase of the stride: it rises smoothly to a peak and falls again.
 
-    The four numbers of Zhang et al. (2017), in shares of the stride: peak torque, its phase, rise and fall.
+    Four numbers in shares of the stride, after Zhang et al. (2017), whose text was not checked: peak torque, its
+    phase, rise and fall.
     The phase is the time since the last touchdown divided by the duration of the previous stride; it stays below 1
     until the next touchdown. There is no torque before the second touchdown.
     """

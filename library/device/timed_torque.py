@@ -6,8 +6,8 @@ from ._profile import swell
 class TimedTorque(Component):
     """A torque over the time since an event, such as touchdown: it rises smoothly to a peak and falls again.
 
-    The four numbers of Zhang et al. (2017): peak torque, its time, rise and fall time. Rise and fall follow
-    3 s^2 - 2 s^3, which is flat at both ends. Before the first event there is no torque.
+    Four numbers, after Zhang et al. (2017), whose text was not checked: peak torque, its time, rise and fall time. Rise
+    and fall follow 3 s^2 - 2 s^3, which is flat at both ends. Before the first event there is no torque.
     """
 
     peak = Parameter("N m", "Torque at the peak; negative for the opposite direction.", bounds=(-1e4, 1e4))

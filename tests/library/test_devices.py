@@ -165,3 +165,33 @@ def test_one_line_adds_each_device_to_the_walker() -> None:
     assert outcome.status == "completed" and outcome.trajectory is not None, outcome.reason
     for name in ("spring", "timed", "hip"):
         assert np.ptp(outcome.trajectory[f"{name}.moment"]) > 0, name
+
+
+def test_an_elastic_ankle_has_a_stiffness_on_each_side_and_a_damper() -> None:
+    values = {"stiffness": 500.0, "return_stiffness": 80.0, "slack_angle": SLACK, "damping": 1.5}
+    for turned, rate, moment, energy, power in ((-0.1, 0, 50, 2.5, 0), (0.2, 0, -16, 1.6, 0), (0, 2, -3, 0, 6)):
+        found = computed("device/elastic_ankle", **values, angle=SLACK + turned, angular_velocity=rate)
+        assert [found.moment, found.elastic_energy, found.damping_power] == pytest.approx([moment, energy, power])
+
+
+def test_a_prosthesis_replaces_the_muscles_of_one_ankle_and_emulates_one() -> None:
+    spec = ROOT / "specs" / "walking_geyer2010_powered_prosthesis.yaml"
+    model = Opening(spec, ("simulate.duration=0.5 s",)).open().model()
+    muscles = {part.address for part in model.parts if part.type.kind == "muscle"}
+    assert "prosthesis.plantarflexor" in muscles and "leg_r.soleus" in muscles
+    assert muscles.isdisjoint({"leg_l.soleus", "leg_l.gastrocnemius", "leg_l.tibialis_anterior"})
+    outcome = Simulator(model).run(recorded=True)
+    assert outcome.status == "completed" and outcome.trajectory is not None, outcome.reason
+    signal = outcome.trajectory
+    # The motor gives the moment that the soleus of the paper would give at this angle.
+    arm = 0.05 * np.cos(signal["leg_l.ankle.angle"] - math.radians(110))
+    moment = signal["prosthesis.plantarflexor.path.moment"]
+    assert moment.max() > 20
+    assert moment == pytest.approx(arm * signal["prosthesis.plantarflexor.force"], rel=1e-9)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["prosthesis", "powered_prosthesis"])
+def test_walkers_with_a_prosthesis_walk(name: str) -> None:
+    outcome = Simulator(Opening(ROOT / "specs" / f"walking_geyer2010_{name}.yaml").open().model()).run()
+    assert outcome.metrics["fall_time"] == 20 and outcome.metrics["speed"] > 0.8
