@@ -36,7 +36,7 @@ def kept(kind: str, key: str) -> bytes | None:
     try:
         whole = path.read_bytes()
     except (FileNotFoundError, NotADirectoryError):
-        return None  # writing it tells whether the folder can be used
+        return None  # writing reports whether the folder can be used
     except OSError as error:
         _tell_unusable(error)
         return None

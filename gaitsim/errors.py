@@ -22,8 +22,8 @@ def command(*words: object) -> str:
     return shlex.join(["gaitsim", *map(str, words)])
 
 
-_LONGEST = 200  # letters of one word or value that a message repeats
-_LONGEST_LINE = 1000  # letters of a line of text below which a caret still shows a place
+_LONGEST = 200  # the most letters of a word or value in a message
+_LONGEST_LINE = 1000  # the most letters of a line below which a caret is helpful
 _LONG = re.compile(r"\S{201,}")
 
 

@@ -55,7 +55,7 @@ def _below(variable: str, usual: str) -> Path | None:
         return said / "gaitsim"
     try:
         return _absolute(f"{Path.home()}/{usual}/gaitsim")
-    except RuntimeError:  # neither $HOME nor an entry in the list of users
+    except RuntimeError:  # neither $HOME nor an entry in the password database
         return None
 
 

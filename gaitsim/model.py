@@ -13,7 +13,7 @@ from gaitsim.text.expression import Expression
 from gaitsim.units import Unit, parse_unit
 
 WORLD = "world"
-TERMS = "terms"  # the input of an objective that the costs of its terms are added to
+TERMS = "terms"  # the input of an objective that receives the costs of its terms
 
 
 @dataclass(frozen=True)
@@ -219,7 +219,7 @@ class Model:
     simulate: Simulate
     notices: tuple[str, ...] = ()
     reproduces: tuple[KnownValue, ...] = ()
-    dropped: frozenset[Mark] = frozenset()  # words of the spec that a swapped-in part lacks
+    dropped: frozenset[Mark] = frozenset()  # keys of the spec that a replaced component lacks
 
     def __repr__(self) -> str:
         return f"<Model {self.name}: {len(self.parts)} parts, {len(self.free)} tuned>"

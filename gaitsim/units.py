@@ -12,7 +12,7 @@ _BASES = ("length", "mass", "time", "angle", "temperature", "current", "any")
 _ANGLE = _BASES.index("angle")
 
 # The field's units and no others: a short list that errors can print. SI brochure, 9th edition.
-# Each has a name, and is so many of a base quantity or of other units, in SI.
+# Each has a name, and is a multiple of a base unit or of other units.
 _DEFINITIONS: dict[str, tuple[str, float, str]] = {
     "m": ("meter", 1.0, "length"),
     "g": ("gram", 1e-3, "mass"),

@@ -8,7 +8,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import IO
 
-PARTIAL = ".partial"  # how the name of a draft ends
+PARTIAL = ".partial"  # the ending of a draft's name
 
 
 def draft_of(path: Path) -> Path:
@@ -54,7 +54,7 @@ def write_whole(path: Path, text: str) -> None:
         draft.write_text(text, encoding="utf-8")
 
 
-def onto_disk(file: IO[str] | IO[bytes]) -> None:
+def flush_to_disk(file: IO[str] | IO[bytes]) -> None:
     """Flush a file to the disk, so that its content survives a crash of the machine.
 
     Args:

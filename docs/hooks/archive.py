@@ -6,7 +6,7 @@ from parts_of_text import Page, code, escaped, table
 from references import linked
 
 from gaitsim.cli.archive import COMPARED_COLUMNS, compared_rows
-from gaitsim.cli.console import Talk
+from gaitsim.cli.console import ConsoleListener
 from gaitsim.study.archive import archived
 from gaitsim.study.catalogue import Entry, entries
 from gaitsim.study.known import summary
@@ -23,7 +23,7 @@ source, the model is that of the paper, and the words say where the value is fro
 
 def page() -> Page:
     """What each model is, from which papers, and how well it has the values that it should have."""
-    found = list(entries(archived([]), Talk(quiet=True)))
+    found = list(entries(archived([]), ConsoleListener(quiet=True)))
     rows = [[code(e.name), escaped(e.summary), _papers(e), summary(e.reproduces)] for e in found]
     texts = [_HEAD, table(["model", "what it is", "papers", "how well it has known values"], rows)]
     for entry in found:

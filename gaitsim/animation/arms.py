@@ -13,7 +13,7 @@ from gaitsim.compiler.mjcf import Assembly
 from gaitsim.model import Model
 from gaitsim.simulation.crossings import crossings
 
-_SEARCHED = np.linspace(-1.0, 1.0, 41)  # rad from the neutral posture: where the largest arm is looked for
+_SEARCHED = np.linspace(-1.0, 1.0, 41)  # rad: the range around the neutral posture in which the largest arm is searched
 _NOTHING = 1e-6  # m
 
 

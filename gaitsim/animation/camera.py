@@ -89,7 +89,7 @@ def follow(
     points, half = _centered(_smooth(centers, spacing), lows, highs)
     still, still_half = _centered(np.zeros_like(centers), lows, highs)
     for axis in (0, 2):
-        # A picture that stands still is better, as long as the body stays about as large in it.
+        # A fixed camera is better, as long as the body keeps about the same size in the picture.
         if still_half[axis] < _STILL * half[axis]:
             points[:, axis], half[axis] = still[:, axis], still_half[axis]
     # Planar motion stays in its plane.

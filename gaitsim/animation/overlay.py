@@ -13,7 +13,7 @@ from gaitsim.animation.camera import Views
 from gaitsim.animation.posture import Floats, Posture
 
 _ARROW = 0.012  # of half the height of what is seen: half the width of a shaft
-_HALVED = 2.0  # MuJoCo draws an arrow half as long as it is told
+_HALVED = 2.0  # MuJoCo draws arrows with half the given length
 _LEAST = 0.005  # of a metre: shorter arrows are left out
 
 
@@ -34,7 +34,7 @@ def add(scene: Any, posture: Posture, views: Views) -> None:
         along = posture.force(force) / views.newtons
         if np.linalg.norm(along) > _LEAST:
             place = posture.place(force.spot)
-            # In front of the limb, or the limb would hide it.
+            # In front of the limb, which would hide it otherwise.
             place = place - 0.12 * views.away
             _connect(scene, mujoco.mjtGeom.mjGEOM_ARROW, width, place, place + _HALVED * along, colours.FORCE)
 

@@ -68,7 +68,7 @@ class Panel:
         pixels = page.faint.copy()
         pixels[:, round(page.left) : column] = page.full[:, round(page.left) : column]
         thick = max(1, round(1.5 * self.scale))
-        # Between two scopes there is a title, of which the line would hide the first letter.
+        # The line would hide the first letter of the title between two plots.
         for top, bottom in page.spans:
             pixels[top:bottom, column : column + thick] = _CURSOR
         return write(pixels, self._values(row, page))
@@ -97,7 +97,7 @@ class Panel:
         length = max(self.end - self.begin, 1e-3) / pages
         number = min(pages - 1, int((time - self.begin) / length))
         if number not in self._pages:
-            # Time runs on: a page that is left behind is not opened again.
+            # Time only advances, so an earlier page is not needed again.
             self._pages = {number: self._drawn(self.begin + number * length, self.begin + (number + 1) * length)}
         return self._pages[number]
 
@@ -125,7 +125,7 @@ class Panel:
         font = 9.5 * self.scale
         grid = figure.subplots(len(self.signals), 1, sharex=True, squeeze=False)
         line, em = font * _DPI / 72 / self.height, font * _DPI / 72 / self.width
-        # Names of levels stand at the left of a scope and, in bold, at its right.
+        # Names of levels are at the left of a plot and, in bold, at its right.
         letters = max((len(name) for signal in self.signals for name in signal.levels), default=0)
         left, right = max(5.2, 0.6 * letters + 1.2) * em, max(8.2, 0.75 * letters + 1.2) * em
         figure.subplots_adjust(

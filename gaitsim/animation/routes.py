@@ -19,7 +19,7 @@ from gaitsim.animation.arms import Arm, ArmPath
 
 Vector = NDArray[np.float64]
 _NOTHING = 1e-3  # m
-_ROUND = 0.95  # of the arm: what a path bends round; an insertion that lies at the arm must be outside of it
+_ROUND = 0.95  # share of the arm: the radius around which a path wraps; an insertion at the arm must be outside
 _BEYOND = 1.5  # arms: how far along a body that goes on straight the insertion is
 _LEAST = 1.2  # arms: how far along the carrying body the origin is at least
 _BESIDE = 0.4  # arms: how far the origin is from the line of its body

@@ -18,7 +18,7 @@ from gaitsim.errors import Fault
 from gaitsim.model import Model
 
 TILE = 0.5  # m, side of the ground's pattern
-_FLESH = (0.88, 0.70, 0.55, 0.32)  # seen through: paths of muscles run inside
+_FLESH = (0.88, 0.70, 0.55, 0.32)  # transparent, because paths of muscles run inside
 _FAR_FLESH = (0.55, 0.50, 0.48, 0.32)  # of the left side, which is behind the right one
 _BONE = (0.84, 0.81, 0.74, 1)
 _FAR_BONE = (0.66, 0.64, 0.62, 1)

@@ -27,7 +27,7 @@ Progress = Callable[[int, int], None]
 ENDINGS = (".mp4", ".gif")
 _SHARE = 0.42  # of the width for the picture; of the height, if the video is upright, 0.5
 _SCOPE = 45  # pixels: the least height of one
-_SAMPLES = 6  # frames that a GIF's colours are taken from
+_SAMPLES = 6  # number of frames from which the colours of a GIF are taken
 _SWATCH = 100  # rows of pixels
 
 

@@ -72,7 +72,7 @@ def check_display(path: Path) -> None:
     move = f"make a video instead: {command('analyze', path)}"
     if not has_display():
         raise NoDisplay(f"there is no display for a window; {move}")
-    # The viewer opens its window in a thread of its own, whose failure it would wait for without end.
+    # The viewer opens its window in another thread. If that failed, it would wait forever.
     if not _opens_windows():
         raise NoDisplay(f"no window with OpenGL can be opened on this display; {move}")
 
@@ -81,7 +81,7 @@ def _opens_windows() -> bool:
     import glfw
 
     with warnings.catch_warnings():
-        warnings.simplefilter("ignore")  # glfw warns of what is told in our own words
+        warnings.simplefilter("ignore")  # our own message replaces glfw's warning
         if not glfw.init():
             return False
         glfw.window_hint(glfw.VISIBLE, False)

@@ -128,7 +128,7 @@ def analyze(
         folder=folder,
     )
     chosen = [opening(path, settings, library, not start, trust, results=results) for path in paths]
-    found = analyzed(chosen, candidate or (), wanted, console.Talk(json))
+    found = analyzed(chosen, candidate or (), wanted, console.ConsoleListener(json))
     _tell(found.replays, found.products, json)
     return found.products.exit_code
 

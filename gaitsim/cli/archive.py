@@ -46,7 +46,7 @@ def list_models(what: What = None, json: Json = False) -> None:
     from gaitsim.study.catalogue import entries
     from gaitsim.study.known import summary
 
-    found = list(entries(archived(what or []), console.Talk(json)))
+    found = list(entries(archived(what or []), console.ConsoleListener(json)))
     if json:
         known = [[compared_data(row) for row in entry.reproduces] for entry in found]
         models = [{**vars(entry), "reproduces": rows} for entry, rows in zip(found, known, strict=True)]
@@ -72,7 +72,7 @@ def check(what: What = None, library: Libraries = None, json: Json = False) -> i
     """
     from gaitsim.study.archive import archived, checked
 
-    verdicts = list(checked(archived(what or [], library or ()), console.Talk(json)))
+    verdicts = list(checked(archived(what or [], library or ()), console.ConsoleListener(json)))
     wrong = [verdict for verdict in verdicts if not verdict.holds]
     if json:
         console.give_json({"status": "differs" if wrong else "holds", "models": [_data(v) for v in verdicts]})
@@ -108,7 +108,7 @@ def record(what: What = None, library: Libraries = None, json: Json = False) -> 
     from gaitsim.study.archive import archived, recorded
 
     wrong, data = False, []
-    for made in recorded(archived(what or [], library or ()), console.Talk(json)):
+    for made in recorded(archived(what or [], library or ()), console.ConsoleListener(json)):
         wrong = wrong or made.error is not None
         data.append(
             {

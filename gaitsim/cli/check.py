@@ -49,7 +49,7 @@ def check(
 
     # With --convergence, what is simulated is what `run` would simulate.
     chosen = opening(spec, settings, library, tuned=convergence, trusted=trust, results=results)
-    sound = checked(chosen, convergence, console.Talk(json))
+    sound = checked(chosen, convergence, console.ConsoleListener(json))
     model, arms, found = sound.models[0], sound.arms, sound.convergence
     picture = folder / f"{model.name}.moment_arms.png" if plot and arms else None
     if picture is not None:

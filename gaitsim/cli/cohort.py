@@ -83,7 +83,7 @@ def cohort(
     workplace.check()
     asked = {"vary": vary, "retune": retune, "metric": metric, "seed": seed, "mode": mode}
     runs = _resumed(opened, bodies, asked, no_save) if resume else _begun(opened, bodies, asked, no_save, results)
-    talk, began = console.Talk(json), time.perf_counter()
+    talk, began = console.ConsoleListener(json), time.perf_counter()
     for notice in runs.notices:
         console.say(notice)
     try:

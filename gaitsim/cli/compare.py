@@ -40,7 +40,7 @@ def compare(
     from gaitsim.study.comparison import compared
 
     pair = [opening(path, None, library, trusted=trust, results=results) for path in (first, second)]
-    found = compared(pair[0], pair[1], console.Talk(json), not no_figures, folder)
+    found = compared(pair[0], pair[1], console.ConsoleListener(json), not no_figures, folder)
     if json:
         console.give_json(_data(found))
     else:

@@ -84,7 +84,7 @@ def waiting(what: str, quiet: bool = False) -> Iterator[None]:
 
 
 @dataclass(frozen=True)
-class Talk:
+class ConsoleListener:
     """The listener of a study that prints to stderr.
 
     Attributes:

@@ -38,7 +38,7 @@ def cycle(
     from gaitsim.study.cycles import cycle as found
 
     chosen = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
-    talk = console.Talk(json)
+    talk = console.ConsoleListener(json)
     gait = found(chosen, mode.value, talk, talk.progress("rounds"))
     if json:
         console.give_json(_data(gait))

@@ -49,7 +49,7 @@ def promote(
 
     request = asked(reference, origin, target, test, replace, force, scope_of(where, results, library))
     try:
-        done = promoted(request, console.Talk(json))
+        done = promoted(request, console.ConsoleListener(json))
     except Changes as error:
         console.say_error(error)
         if json:

@@ -50,7 +50,7 @@ def used_by(
     from gaitsim.study.records import SHORT
     from gaitsim.study.uses import using_results, using_specs
 
-    scope, talk = scope_of(where, results, library), console.Talk(json)
+    scope, talk = scope_of(where, results, library), console.ConsoleListener(json)
     version = scope.version(reference)[:SHORT]
     rows = [("spec", one.archived.name, one.version, "") for one in using_specs(reference, scope, talk)]
     rows += [("result", shown(r.folder), r.version, r.created[:10]) for r in using_results(reference, scope, talk)]
@@ -84,7 +84,7 @@ def test(
     """
     from gaitsim.study.acceptance import tested
 
-    found = list(tested(reference, scope_of(where, results, library), trust, console.Talk(json)))
+    found = list(tested(reference, scope_of(where, results, library), trust, console.ConsoleListener(json)))
     wrong = [one for one in found if one.state in ("differs", "error")]
     if json:
         console.give_json(
@@ -109,7 +109,7 @@ def history(
     from gaitsim.study.lineage import history as versions_of
     from gaitsim.study.uses import using_results, using_specs
 
-    scope, talk = scope_of(where, results, library), console.Talk(json)
+    scope, talk = scope_of(where, results, library), console.ConsoleListener(json)
     copies = list(using_results(reference, scope, talk))
     found = versions_of(reference, scope.library(), copies, using_specs(reference, scope, talk))
     if json:

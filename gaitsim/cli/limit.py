@@ -13,7 +13,7 @@ from gaitsim.errors import command
 from gaitsim.folders import results_folder
 
 if TYPE_CHECKING:
-    from gaitsim.study.limits import Hunt, Limit
+    from gaitsim.study.limits import Limit, LimitRuns
 
 
 def limit(
@@ -67,27 +67,27 @@ def limit(
     from gaitsim.study.begun_limits import begun_or_resumed
 
     opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
-    talk = console.Talk(json)
+    talk = console.ConsoleListener(json)
     asked = {"vary": vary, "until": until, "tolerance": tolerance, "points": points, "mode": mode, "from": origin}
-    hunt = begun_or_resumed(opened, asked, resume, None if no_save else results_folder(results), talk)
+    runs = begun_or_resumed(opened, asked, resume, None if no_save else results_folder(results), talk)
     try:
-        hunt.run(talk)
+        runs.run(talk)
     except KeyboardInterrupt:
-        if hunt.folder:
-            console.say(f"interrupted; to continue: {command('limit', hunt.folder, '--resume')}")
+        if runs.folder:
+            console.say(f"interrupted; to continue: {command('limit', runs.folder, '--resume')}")
         raise
-    _report(hunt, hunt.folder, json)
-    return console.code_after(hunt.keeping.error, 0)
+    _report(runs, runs.folder, json)
+    return console.code_after(runs.keeping.error, 0)
 
 
-def _report(hunt: Hunt, folder: Path | None, json: bool) -> None:
+def _report(runs: LimitRuns, folder: Path | None, json: bool) -> None:
     if json:
-        rows = [_data(limit, hunt) for limit in hunt.limits]
-        console.give_json({"limits": rows, "mode": hunt.mode, "result": str(folder) if folder else None})
+        rows = [_data(limit, runs) for limit in runs.limits]
+        console.give_json({"limits": rows, "mode": runs.mode, "result": str(folder) if folder else None})
         return
     columns = ["address", "from", "to", "last that holds", "first that does not", "how that ends", "runs"]
-    console.give_table(columns, [_row(limit, hunt) for limit in hunt.limits])
-    for limit in hunt.limits:
+    console.give_table(columns, [_row(limit, runs) for limit in runs.limits])
+    for limit in runs.limits:
         if limit.first is None:
             console.say(f"{limit.address}: it holds up to {limit.at(1)}; to find a limit, go further.")
         if limit.beyond:
@@ -97,23 +97,23 @@ def _report(hunt: Hunt, folder: Path | None, json: bool) -> None:
         console.say(f"saved in {folder}; see a run: {command('run', folder, '--candidate', 'NUMBER')}")
 
 
-def _row(limit: Limit, hunt: Hunt) -> tuple[str, ...]:
-    ending = hunt.until.said(limit.ending) if limit.ending else "-"
-    runs = str(len(limit.outcomes))
-    return limit.address, limit.at(0), limit.at(1), limit.last, limit.first or "-", ending, runs
+def _row(limit: Limit, runs: LimitRuns) -> tuple[str, ...]:
+    ending = runs.until.said(limit.ending) if limit.ending else "-"
+    count = str(len(limit.outcomes))
+    return limit.address, limit.at(0), limit.at(1), limit.last, limit.first or "-", ending, count
 
 
-def _data(limit: Limit, hunt: Hunt) -> dict[str, Any]:
+def _data(limit: Limit, runs: LimitRuns) -> dict[str, Any]:
     return {
         "address": limit.address,
         "from": limit.at(0),
         "to": limit.at(1),
         "last": limit.last,
         "first": limit.first,
-        "ending": hunt.until.said(limit.ending) if limit.ending else None,
+        "ending": runs.until.said(limit.ending) if limit.ending else None,
         "beyond": limit.beyond,
         "runs": [
-            {"value": limit.at(share), "holds": limit.bracket.held[share], "ending": hunt.until.said(outcome)}
+            {"value": limit.at(share), "holds": limit.bracket.held[share], "ending": runs.until.said(outcome)}
             for share, outcome in sorted(limit.outcomes.items())
         ],
     }

@@ -43,7 +43,7 @@ library.app.command("test")(library_uses.test)
 library.app.command("promote")(library_promote.promote)
 library.app.command("history")(library_uses.history)
 
-# Objects made before Python looks for garbage. What is imported stays, so looking after every 700 is in vain.
+# Allocations before a garbage collection. Imported objects stay, so the default of 700 wastes time.
 _GARBAGE = 20_000
 
 COMMANDS: dict[str, Callable[..., Any]] = {
@@ -117,12 +117,12 @@ def main(arguments: list[str] | None = None) -> None:
     gc.set_threshold(_GARBAGE)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
-            stream.reconfigure(errors="backslashreplace")  # a name on the disk may hold any bytes
+            stream.reconfigure(errors="backslashreplace")  # a file name can contain any bytes
     try:
         with heard_once():
             code = _ran(sys.argv[1:] if arguments is None else arguments)
     except BrokenPipeError:
-        # The reader of our output is gone (such as head); there is no one left to tell.
+        # The reader of our output (such as head) has ended.
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         code = ExitCode.OK
     sys.exit(code if isinstance(code, int) else ExitCode.OK)
@@ -172,7 +172,7 @@ def _check_words(words: list[str]) -> None:
 def _other(error: Exception) -> int:
     """The exit code of errors of the command-line library. All others are bugs of gaitsim."""
     if hasattr(error, "format_message") and hasattr(error, "exit_code"):
-        # Typer passes on the words of pydantic, and this prefix with them.
+        # Typer repeats the messages of pydantic with this prefix.
         console.say(f"gaitsim: {error.format_message().replace('Value error, ', '')}")
         context = getattr(error, "ctx", None)
         command = context.command_path if context is not None else "gaitsim"

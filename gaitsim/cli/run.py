@@ -77,7 +77,7 @@ def run(
 
     drawn = draws_asked(draws, within, seed, vary or [], out)
     opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
-    places, talk = Places(None if no_save else results_folder(results), out, every), console.Talk(json)
+    places, talk = Places(None if no_save else results_folder(results), out, every), console.ConsoleListener(json)
     runs = prepared(opened, vary or [], drawn, mode.value, places, talk)
     try:
         runs.run(talk)
@@ -166,7 +166,7 @@ def _print_table(rows: Sequence[Variant], outcomes: Sequence[Outcome], models: S
     from gaitsim.model import headed, headline_metrics
 
     addresses = list(dict.fromkeys(address for row in rows for address in row.settings))
-    # A table has no room for all; --json has.
+    # A table has no room for all metrics; --json has them.
     names = headline_metrics(dict.fromkeys(name for outcome in outcomes for name in outcome.metrics))
     table = [
         (

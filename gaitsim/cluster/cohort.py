@@ -98,7 +98,7 @@ def bundle_rows(bundle: Bundle, mode: Mode) -> Rows:
         BadResult: The cohort cannot be read.
     """
     document, library, starts = bundle.document(), bundle.library(), bundle.starts()
-    # Components are compiled now, so that workers that are copies of this process need not do it again.
+    # Components are compiled now, so that forked workers need not do it again.
     Simulator(resolve(document, library, bundle.name).started_at(starts), mode)
     return Rows(cohort_of(bundle), document, library, bundle.name, starts, mode)
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from gaitsim.cluster.unreachable import ClusterError
 
-_PATIENCE = 15.0  # seconds until a scheduler must answer, and until it must have workers
+_TIMEOUT = 15.0  # seconds until a scheduler must answer, and until it must have workers
 _GREETING = 5.0  # seconds until one that listens must show that it is a scheduler
 _ADDRESS = re.compile(r"(?:(?P<scheme>tcp|tls)://)?(?P<host>\[[0-9a-fA-F:.]+\]|[^\s:/\[\]]+):(?P<port>\d{1,5})")
 
@@ -43,9 +43,9 @@ def remote_client(scheduler: str | None, scheduler_file: Path | None, say: Calla
         say(f"{address}: plain tcp lets anyone who reaches this port run code; use tls:// beyond this machine")
     address = f"{scheme}://{host}:{port}"
     _check_protocol(address, place)
-    client = Client(address, timeout=_PATIENCE, set_as_default=False)
+    client = Client(address, timeout=_TIMEOUT, set_as_default=False)
     try:
-        client.wait_for_workers(1, timeout=_PATIENCE)
+        client.wait_for_workers(1, timeout=_TIMEOUT)
     except (OSError, TimeoutError) as error:
         client.close()
         raise ClusterError(f"{place}: the scheduler has no workers; start some: dask worker {address}.") from error
@@ -88,7 +88,7 @@ def _check_answer(host: str, port: int, place: str) -> None:
         ClusterError: Nothing listens.
     """
     try:
-        socket.create_connection((host.strip("[]"), port), timeout=_PATIENCE).close()
+        socket.create_connection((host.strip("[]"), port), timeout=_TIMEOUT).close()
     except OSError as error:
         reason = error.strerror or str(error)
         move = "start one (dask scheduler), or correct the address"
@@ -115,7 +115,7 @@ def _check_protocol(address: str, place: str) -> None:
 
     try:
         asyncio.run(greet())
-    except Exception as error:  # what a stranger answers can break anything that reads it
+    except Exception as error:  # an answer of another program can make any reader fail
         rule = "what answers there is no Dask scheduler, or one of another version"
         raise ClusterError(f"{place}: {rule}; start one: dask scheduler.") from error
 

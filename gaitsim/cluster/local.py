@@ -10,15 +10,15 @@ from collections.abc import Iterator, Sequence
 from multiprocessing.connection import wait
 
 from gaitsim.cluster.evaluate import runner_of
-from gaitsim.cluster.patience import Found, Pace, Patience, killed, too_late
 from gaitsim.cluster.process import START_METHOD, Lifeline, Worker, started
+from gaitsim.cluster.time_limits import Found, Pace, TimeLimits, killed, too_late
 from gaitsim.optimization.evaluation import Candidate, Evaluation
 from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.run import Mode
 
-_AHEAD = 0.002  # seconds of work that a worker has beside what it is at: it need not wait for the driver
-_MOST_AHEAD = 4  # so few fit into a pipe, whatever they are
-_TRIES = 3  # a candidate whose workers died so often is the cause; one that died once may have been killed from outside
+_AHEAD = 0.002  # seconds of work that wait for a busy worker, so that it need not wait for the driver
+_MOST_AHEAD = 4  # this number of candidates fits into a pipe, whatever their size
+_TRIES = 3  # deaths after which the candidate is the cause; a single one may come from outside
 
 
 class Local:
@@ -28,19 +28,24 @@ class Local:
         bundle: What is evaluated.
         mode: Native code ("rapid") or plain Python ("normal").
         workers: The number of processes.
-        patience: Time limits.
+        time_limits: Of candidates.
         method: How processes start; see `multiprocessing`.
     """
 
     def __init__(
-        self, bundle: Bundle, mode: Mode, workers: int, patience: Patience | None = None, method: str = START_METHOD
+        self,
+        bundle: Bundle,
+        mode: Mode,
+        workers: int,
+        time_limits: TimeLimits | None = None,
+        method: str = START_METHOD,
     ) -> None:
         self._bundle, self._mode, self._method = bundle, mode, method
-        self._pace = Pace(patience or Patience())
+        self._pace = Pace(time_limits or TimeLimits())
         self._host = socket.gethostname()
         if method == "fork":
             runner_of(bundle, mode)  # copied with this process
-            gc.freeze()  # a collection in a copy would touch, and so copy, every page
+            gc.freeze()  # a garbage collection in a copy would touch, and thereby copy, every page
         self._lifeline = Lifeline(method)
         self._workers: list[Worker] = []
         try:
@@ -106,8 +111,8 @@ class Local:
     def _ready(self) -> list[Worker]:
         """The workers that have an answer or are dead; none if a worker exceeds its time."""
         busy = {worker.answers: worker for worker in self._workers if worker.given}
-        patience = min(worker.since for worker in busy.values()) + self._pace.limit - time.monotonic()
-        return [busy[connection] for connection in wait([*busy], max(0.0, patience))]  # type: ignore[index]
+        time_limits = min(worker.since for worker in busy.values()) + self._pace.limit - time.monotonic()
+        return [busy[connection] for connection in wait([*busy], max(0.0, time_limits))]  # type: ignore[index]
 
     def _overdue(self) -> list[Worker]:
         now = time.monotonic()

@@ -12,16 +12,16 @@ from typing import Any
 from distributed import KilledWorker
 
 from gaitsim.cluster.fingerprint import differences, fingerprint
-from gaitsim.cluster.patience import Found, Pace, Patience, killed, too_late
+from gaitsim.cluster.time_limits import Found, Pace, TimeLimits, killed, too_late
 from gaitsim.cluster.unreachable import ClusterError
 from gaitsim.cluster.worker import BundlePlugin, Chunk, Done, evaluate_chunk
 from gaitsim.optimization.evaluation import Candidate
 from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.run import Mode
 
-_TASK_SECONDS = 0.1  # a much shorter task is mostly Dask's own time, a longer one lets others wait
+_TASK_SECONDS = 0.1  # s; shorter tasks are mostly overhead of Dask, longer ones keep others waiting
 _CHUNKS_A_WORKER = 4
-_GATHER_SECONDS = 10.0  # a result is some kilobytes; one that takes longer was on a worker that is gone
+_GATHER_SECONDS = 10.0  # s; a result has some kilobytes, so one that takes longer was on a lost worker
 _SAME = "give all workers this environment and start them again"
 
 Chunked = tuple[Candidate, ...]
@@ -34,10 +34,10 @@ class _ResultLost(Exception):
 class Parallel:
     """An evaluator on the workers of a Dask client."""
 
-    def __init__(self, client: Any, bundle: Bundle, mode: Mode, patience: Patience | None = None) -> None:
+    def __init__(self, client: Any, bundle: Bundle, mode: Mode, time_limits: TimeLimits | None = None) -> None:
         self._client, self._mode, self._digest = client, mode, bundle.digest
-        self._patience = patience or Patience()
-        self._pace = Pace(self._patience)
+        self._time_limits = time_limits or TimeLimits()
+        self._pace = Pace(self._time_limits)
         self._needs = fingerprint()
         self._plugin = BundlePlugin(bundle)
         try:
@@ -67,7 +67,7 @@ class Parallel:
         suspects: list[Candidate] = []
         yield from self._found(waiting, finished, suspects)
         for candidate in suspects:
-            # Alone, so that a worker's death is this candidate's doing and not its neighbour's.
+            # Alone, so that the death of a worker is caused by this candidate and not by another one.
             again: list[Candidate] = []
             yield from self._found({self._submit((candidate,), finished): (candidate,)}, finished, again)
             if again:
@@ -114,7 +114,7 @@ class Parallel:
                 silent_since = None
                 continue
             silent_since = silent_since or time.monotonic()
-            if time.monotonic() - silent_since > self._patience.workers:
+            if time.monotonic() - silent_since > self._time_limits.workers:
                 place = self._client.scheduler.address
                 raise ClusterError(f"{place}: all workers are gone; start some: dask worker {place}.")
 

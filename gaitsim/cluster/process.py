@@ -49,7 +49,7 @@ class Worker:
     tasks: Connection
     answers: Connection
     given: deque[Candidate] = field(default_factory=deque)
-    since: float = 0.0  # when it began the first of them
+    since: float = 0.0  # the start of the first of them
 
     def give(self, candidates: Sequence[Candidate]) -> None:
         """Send candidates. A dead worker is noticed when its answer is awaited."""
@@ -90,7 +90,7 @@ def started(bundle: Bundle, mode: Mode, lifeline: Lifeline, method: str) -> Work
     answers, answers_in = context.Pipe(duplex=False)
     words = (bundle, mode, tasks_out, answers_in, lifeline.held, lifeline.kept)
     process = context.Process(target=_serve, args=words, daemon=True, name="gaitsim worker")
-    # Until a worker is deaf to them, it must not hear what the driver does something about.
+    # Signals that the driver handles are blocked until the worker ignores them.
     signal.pthread_sigmask(signal.SIG_BLOCK, _DRIVERS)
     try:
         process.start()
@@ -99,7 +99,7 @@ def started(bundle: Bundle, mode: Mode, lifeline: Lifeline, method: str) -> Work
         raise ClusterError(f"a worker cannot be started on this machine ({reason}); use fewer --workers.") from error
     finally:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, _DRIVERS)
-    # Held by the worker alone: when it dies, its answers end.
+    # Held by the worker alone, so that the pipe of answers closes when it dies.
     tasks_out.close()
     answers_in.close()
     return Worker(process, tasks, answers)
@@ -109,9 +109,9 @@ def _serve(
     bundle: Bundle, mode: Mode, tasks: Connection, answers: Connection, held: Connection, kept: Connection
 ) -> None:
     """The main loop of a worker process."""
-    kept.close()  # or the lifeline of the others would never end
+    kept.close()  # otherwise the lifeline of the other workers would never close
     threading.Thread(target=_end_with_driver, args=(held,), daemon=True).start()
-    # Ctrl-C reaches every process of a terminal; the driver hears it, and ends its workers.
+    # Ctrl-C reaches every process of a terminal. The driver handles it and ends its workers.
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_UNBLOCK, _DRIVERS)

@@ -27,7 +27,7 @@ class BundlePlugin(WorkerPlugin):  # type: ignore[misc]
 
     def __init__(self, bundle: Bundle) -> None:
         self.bundle = bundle
-        # Each search has its own: one that ends does not take the bundle from another.
+        # Each search has a plugin of its own, so that the end of one does not remove the bundle of another.
         self.name = f"gaitsim-{uuid.uuid4()}"
 
     def setup(self, worker: Worker) -> None:  # noqa: ARG002 (Dask passes it by name)

@@ -102,7 +102,7 @@ class _Waiting:
         ahead = list(reached)
         while ahead:
             port = ahead.pop()
-            # What it can give leads to what it cannot yet.
+            # Outputs that can be computed lead to outputs that cannot be yet.
             if port[0] == part:
                 return 1
             following = [reader for reader in self.readers.get(port, ()) if reader not in reached]

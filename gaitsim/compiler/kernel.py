@@ -45,9 +45,9 @@ _ARGUMENTS = {
     "start": "parameters, inputs, states",
     "output": "parameters, inputs, states, outputs",
     "update": "parameters, inputs, states, outputs, dt",
-    "reset": "parameters, inputs, states, outputs, dt",  # the last number is the time then
+    "reset": "parameters, inputs, states, outputs, dt",  # here the last argument is the time
 }
-# numba's way to call: where the result goes, where an exception goes; what comes back is 0 unless it raised.
+# numba's calling convention: pointers for result and exception; the return value is 0 unless it raised.
 _ALONE = """
 declare i32 @{name}(ptr, ptr, i64, ptr, ptr, ptr, ptr, double)
 

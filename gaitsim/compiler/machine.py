@@ -59,7 +59,7 @@ def _target() -> Any:
 
 
 def _target_machine() -> Any:
-    # As numba does: code that is loaded where it happens to fit.
+    # As numba does, for code that is loaded at any address.
     reloc = "static" if _target().name.startswith("x86") else "default"
     return _target().create_target_machine(
         cpu=llvm.get_host_cpu_name(),
@@ -169,7 +169,7 @@ def _provide_mujoco() -> None:
     library = _mujoco()
     for name in _MUJOCO:
         llvm.add_symbol(name, ctypes.cast(getattr(library, name), ctypes.c_void_p).value)
-    # The Python package installs a clock that MuJoCo reads a dozen times in a step; nobody looks at its timers.
+    # The Python package installs a clock that MuJoCo reads a dozen times in a step; its timers are not used.
     set_clock(None)
 
 

@@ -26,7 +26,9 @@ _INTEGRATORS = {
     "rk4": mujoco.mjtIntegrator.mjINT_RK4,
 }
 
-AFTER_VELOCITIES = int(mujoco.mjtStage.mjSTAGE_VEL)  # what mj_step1 has done when mj_forwardSkip goes on
+AFTER_VELOCITIES = int(
+    mujoco.mjtStage.mjSTAGE_VEL
+)  # the stage that mj_step1 has completed when mj_forwardSkip continues
 
 
 @dataclass(frozen=True)
@@ -149,13 +151,13 @@ def _integrator(model: Model, compiled: Any) -> Any:
             rule = f"its velocity terms need an implicit scheme, and the events of {guarded.address} explicit steps"
             rule += "; use another part for one of them."
         raise InvalidSpec(Fault(rule, mark, address))
-    if guarded:  # `events` steps by itself
+    if guarded:  # `events` makes its own steps
         return _INTEGRATORS["euler"]
     if chosen != "automatic":
         return _INTEGRATORS[chosen]
     if not damped.size:
         return _INTEGRATORS["euler"]
-    # Of a body alone MuJoCo keeps a diagonal mass matrix; implicitfast then drops how damping couples its coordinates.
+    # For a single body MuJoCo keeps a diagonal mass matrix; implicitfast then drops the coupling by damping.
     alone = compiled.body_simple[1:].any()
     return mujoco.mjtIntegrator.mjINT_IMPLICIT if alone else _INTEGRATORS["implicitfast"]
 
@@ -181,7 +183,7 @@ _KINDS = {
     "actuator": mujoco.mjtObj.mjOBJ_ACTUATOR,
     "sensor": mujoco.mjtObj.mjOBJ_SENSOR,
 }
-# Where MuJoCo's model says at which place an element's first number lies; at the element's own elsewhere.
+# The array of MuJoCo's model with the index of an element's first number; elsewhere it is the element's own.
 _FIRST = {
     "qpos": "jnt_qposadr",
     "qvel": "jnt_dofadr",

@@ -5,10 +5,10 @@ from __future__ import annotations
 # What `run` returns: all steps are done, something is not finite or raised, the mechanics diverged,
 # or a part has stopped the run (STOPPED + which of the plan's stops).
 COMPLETED, SUSPECT, DIVERGED, STOPPED = 0, 1, 2, 3
-# Tables of states and outputs have a multiple of this many numbers, so that they are checked by the dozen.
+# Sizes of tables of states and outputs are multiples of this, so that they are checked in blocks.
 PADDING = 32
 
-# Of steps with events: how many one step may have, and how often it is halved to locate one.
+# Largest number of events in a step, and of halvings to locate one.
 EVENTS, HALVINGS = 64, 44
 # Where each stage of Runge-Kutta 4 begins, as a share of the step, and the weight of its rates.
 RUNGE_KUTTA = ((0.0, 1.0), (0.5, 2.0), (0.5, 2.0), (1.0, 1.0))

@@ -161,7 +161,7 @@ def _read(part: Part) -> Sequence[str]:
     return list(kind.inputs)
 
 
-# Read from the text, and rather seen once too often: words of a docstring count, and a missed one would not.
+# Read from the text. Words of a docstring count too; this errs on the safe side.
 _RAISES = re.compile(r"\braise\b|\bassert\b|\[")
 _OPEN_LOOP = re.compile(r"\bwhile\b|\bfor\b.*\bin\b(?! range\([\d, ]+\):)")
 

@@ -14,7 +14,7 @@ from gaitsim.compiler.native import CLOCK, TICKS, TIMED
 from gaitsim.compiler.translation import Translation
 from gaitsim.compiler.writer import DOUBLE, INTEGER, Writer
 
-# On ARM only the system's counter may be read by everybody.
+# On ARM, programs may read the system's counter only.
 _COUNTER = "llvm.readsteadycounter" if platform.machine().lower() in ("arm64", "aarch64") else "llvm.readcyclecounter"
 
 

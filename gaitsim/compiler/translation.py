@@ -23,14 +23,14 @@ from gaitsim.compiler.plan import Piece, Plan, Step
 from gaitsim.compiler.records import Records
 from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, NOTHING, POINTER, SHORT, Writer
 
-# A kernel that more parts than this have is called, not copied for each: its code then stays in the processor's cache.
+# Kernels of more parts than this are called instead of inlined, so that their code stays in the cache.
 _COPIES = 3
-# How many calls of parts make one function: LLVM takes more than twice as long over one twice as long.
+# Calls of parts in one function. The time of LLVM grows faster than the length of a function.
 _CHUNK = 64
 
 _LANES = ir.VectorType(DOUBLE, 8)
 _KINDS = {"flag": FLAG, "integer": INTEGER, "number": DOUBLE, "pointer": POINTER, "shared": POINTER}
-# What `output` of all parts is called with, at the start and later; and what the start of a part needs of it.
+# Arguments of the functions that call `output` of all parts, at the start and later, and of starting a part.
 _OUTPUTS = {**FRAME, "places": "pointer", "values": "pointer", "count": "integer", "starting": "flag", "strict": "flag"}
 _BEGIN = ("dt", "states", "places", "values", "count")
 

@@ -24,7 +24,7 @@ from gaitsim.compiler.plan import Plan
 from gaitsim.components.checks.shared import Shared
 from gaitsim.components.primitive import Primitive
 
-# Below so many, a helper would be done importing numba after all is compiled.
+# With fewer kernels, a helper would still be importing numba when everything is compiled.
 _WORTH_A_HELPER = 4
 
 
@@ -70,7 +70,7 @@ def bitcode_of(kernels: Sequence[Kernel]) -> list[bytes]:
     try:
         return [kernel.bitcode() for kernel in kernels]
     finally:
-        for helper in helpers:  # what one still compiles is compiled here by now
+        for helper in helpers:  # whatever a helper still compiles has been compiled here
             helper.terminate()
         for helper in helpers:
             helper.wait()
@@ -104,7 +104,7 @@ def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
     components = [kernel.component for kernel in kernels]
     files = [(_texts(found), [_texts(file) for file in found.shared]) for found in components]
     command = [sys.executable, "-m", "gaitsim.compiler.workshop"]
-    quiet = subprocess.DEVNULL  # a mistake is told by the process that needs the kernel
+    quiet = subprocess.DEVNULL  # faults are reported by the process that needs the kernel
     bare = os.environ | {"MUJOCO_GL": "off"}
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet, env=bare)
     assert process.stdin is not None

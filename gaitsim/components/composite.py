@@ -10,7 +10,7 @@ from gaitsim.components.load import as_lines, digest_of
 from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Faults, Mark
 from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode, parse
-from gaitsim.text.quantity import number_with_unit, said, unknown_unit
+from gaitsim.text.quantity import number_with_unit, quoted, unknown_unit
 from gaitsim.text.spelling import respelled
 from gaitsim.units import UnknownUnit, parse_unit
 
@@ -163,7 +163,7 @@ def _bounds(node: MappingNode, name: str, faults: Faults) -> tuple[float, float]
     if low is None or high is None:
         return None
     if low > high:
-        rule = f"the bounds {said(bounds.items[0])} and {said(bounds.items[1])} are reversed; exchange them."
+        rule = f"the bounds {quoted(bounds.items[0])} and {quoted(bounds.items[1])} are reversed; exchange them."
         faults.add(rule, bounds.mark, name)
         return None
     return low, high
@@ -179,7 +179,9 @@ def _mapping(document: MappingNode, name: str, faults: Faults) -> MappingNode:
     if node is None or (isinstance(node, ScalarNode) and node.value is None):
         return MappingNode({}, {}, document.mark)
     if not isinstance(node, MappingNode):
-        faults.add(f"{said(node)} is not a mapping of names; write such as {name}: {_SAMPLES[name]}.", node.mark, name)
+        faults.add(
+            f"{quoted(node)} is not a mapping of names; write such as {name}: {_SAMPLES[name]}.", node.mark, name
+        )
         return MappingNode({}, {}, document.mark)
     return node
 
@@ -187,7 +189,7 @@ def _mapping(document: MappingNode, name: str, faults: Faults) -> MappingNode:
 def _text(node: Node, faults: Faults) -> str:
     if isinstance(node, ScalarNode) and isinstance(node.value, str):
         return node.value
-    faults.add(f"{said(node)} is not a name; write such as thigh.proximal.", node.mark)
+    faults.add(f"{quoted(node)} is not a name; write such as thigh.proximal.", node.mark)
     return ""
 
 

@@ -7,7 +7,7 @@ from gaitsim.components.composite import ComponentFile, Composite
 from gaitsim.errors import Fault, Faults, Mark
 from gaitsim.text.document import MappingNode, Node, plain
 from gaitsim.text.document import parse as parse_document
-from gaitsim.text.quantity import said, unknown_unit
+from gaitsim.text.quantity import quoted, unknown_unit
 from gaitsim.text.spelling import respelled
 from gaitsim.units import UnknownUnit, parse_unit
 
@@ -56,7 +56,9 @@ def read_contract(text: str, named: str) -> dict[str, dict[str, str]]:
     for section in _SECTIONS:
         wanted = document.entries.get(section, MappingNode({}, {}, document.mark))
         if not isinstance(wanted, MappingNode):
-            faults.add(f"{said(wanted)} is not a mapping of names; write such as {section}: {{force: N}}.", wanted.mark)
+            faults.add(
+                f"{quoted(wanted)} is not a mapping of names; write such as {section}: {{force: N}}.", wanted.mark
+            )
             continue
         found[section] = {}
         for name, node in wanted.entries.items():

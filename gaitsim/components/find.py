@@ -16,9 +16,9 @@ from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean,
 from gaitsim.text.document import text_of
 
 _SUFFIXES = (".py", ".yaml")
-_LONGEST = 200  # letters; no file system has longer names
+_LONGEST = 200  # letters; file systems do not have longer names
 KIND = "kind.yaml"  # the contract of a kind
-SKELETON = "_skeleton.py"  # what `gaitsim library new` begins with
+SKELETON = "_skeleton.py"  # the template of `gaitsim library new`
 
 
 def is_component(path: Path) -> bool:
@@ -267,6 +267,6 @@ def shown(path: Path) -> str:
         return str(path)
 
 
-def at(mark: Mark, address: str, error: GaitsimError) -> list[Fault]:
+def faults_at(mark: Mark, address: str, error: GaitsimError) -> list[Fault]:
     """Faults of an error. Those without a place get the place where the spec uses the component."""
     return [f if f.mark else Fault(f.message, mark, address) for f in error.faults]

@@ -26,7 +26,7 @@ from gaitsim.units import UnknownUnit, parse_unit
 Floats = NDArray[np.float64]
 Row = tuple[Mark, list[str]]
 _NAME = re.compile(r"(\w+) \[(.+)\]")
-_HOLE = 0.1  # of the cycle: over more than this, straight lines between rows are no recorded curve
+_HOLE = 0.1  # share of the cycle; across larger gaps, linear interpolation is not a recorded curve
 _ROUNDING = 1e-9
 
 

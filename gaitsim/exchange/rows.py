@@ -9,7 +9,7 @@ from typing import IO
 from gaitsim.simulation.outcome import Trajectory
 from gaitsim.whole import whole
 
-_BLOCK = 10_000  # rows that are text at a time
+_BLOCK = 10_000  # rows that are converted to text at once
 
 
 def write_table(path: Path, head: str, trajectory: Trajectory, separator: str) -> None:

@@ -14,7 +14,7 @@ from typing import IO
 
 from gaitsim.errors import Fault, GaitsimError, Mark
 from gaitsim.optimization.evaluation import Candidate, Evaluation, evaluation_of, is_whole
-from gaitsim.whole import onto_disk, whole
+from gaitsim.whole import flush_to_disk, whole
 
 _MOVE = "restore it from a copy, or start a new search with --from"
 _WHOLE, _ARRIVING = "evaluations.jsonl", "arriving.jsonl"
@@ -29,8 +29,8 @@ class Journal:
 
     def __init__(self, folder: Path) -> None:
         self._whole, self._arriving = folder / _WHOLE, folder / _ARRIVING
-        # Whether the last generation is whole is known to the search only, so it arrives anew.
-        # First it is safe there, then it is cut here: a crash between the two loses nothing.
+        # Only the search knows whether the last generation is complete, so it moves to the arriving ones.
+        # It is written there before it is removed here, so that a crash between the two loses nothing.
         begin, self._written, last = _last_generation(self._whole)
         later = [e for e in _read(self._arriving) if e.candidate.generation > self._written]
         self._arrived = {_place(evaluation): evaluation for evaluation in [*last, *later]}
@@ -193,9 +193,9 @@ def _cut(path: Path, size: int) -> None:
     """Shorten a file, and flush it to the disk."""
     with path.open("r+b") as file:
         file.truncate(size)
-        onto_disk(file)
+        flush_to_disk(file)
 
 
 def _write(file: IO[str], evaluations: Iterable[Evaluation]) -> None:
     file.writelines(evaluation.line() + "\n" for evaluation in evaluations)
-    onto_disk(file)
+    flush_to_disk(file)

@@ -40,7 +40,7 @@ class Problem:
     def start(self) -> list[float]:
         return [variable.start for variable in self.variables]
 
-    # Algorithms work on values divided by their spread: a force and an angle then move at one pace.
+    # Algorithms use values divided by their spreads, so that forces and angles change at the same rate.
     def scaled(self, values: Sequence[float]) -> Vector:
         return np.asarray(values, dtype=np.float64) / self._spreads
 

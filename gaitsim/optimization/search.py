@@ -108,7 +108,7 @@ class Search:
         candidates = [each for generation in generations for each in generation]
         self.progress.asked, self.progress.arrived = len(candidates), len(found)
         new = self.evaluator([each for each in candidates if each not in found])
-        self._close_last()  # while the workers are at these
+        self._close_last()  # while the workers evaluate these
         for evaluation, seconds, where in new:
             self.journal.arrived(evaluation)
             self.took(evaluation.candidate, seconds, where)

@@ -10,7 +10,7 @@ from gaitsim.components.find import shipped_folder, shown
 from gaitsim.components.load import as_lines
 from gaitsim.components.places import serves
 from gaitsim.results.bundle import COMPONENTS, Bundle
-from gaitsim.results.trust import strangers
+from gaitsim.results.trust import unknown_components
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Copy:
 
 def copies(bundle: Bundle, folders: Sequence[Path]) -> list[Copy]:
     """Compare the component files of a bundle with those in folders; the first folder with such a file counts."""
-    strange = set(strangers(bundle))
+    strange = set(unknown_components(bundle))
     found = []
     for path, text in sorted(bundle.files.items()):
         inner = path.removeprefix(f"{COMPONENTS}/")

@@ -13,7 +13,7 @@ from gaitsim.model import Model, Part
 from gaitsim.results.bundle import COMPONENTS, Bundle
 from gaitsim.results.listing import connection_rows, parameter_rows, part_rows
 
-_DIGITS = 12  # of a digest, as git shows them
+_DIGITS = 12  # digits of a digest, as git shows them
 _SEARCH = "search"
 Rows = Mapping[str, str]
 
@@ -34,7 +34,7 @@ class Change:
     second: str
 
 
-KINDS = {  # what differs: how it is counted
+KINDS = {  # the kind of change: its name in counts
     "part": "parts that only one has",
     "component": "parts with another component",
     "code": "components of the same name with other code",

@@ -15,7 +15,7 @@ from typing import Any
 
 from gaitsim.errors import GaitsimError
 
-_WRITING = 5.0  # seconds after which a lock that names no process is not still being written
+_WRITING = 5.0  # seconds after which an empty lock is not being written any more
 _BEGUN = "another process began to write this result"
 
 
@@ -58,7 +58,7 @@ class Lock:
         if process != os.getpid() and _may_run(holder):
             rule = f"process {process} on {host} is writing this result"
             raise Locked(f"{self._path}: {rule}; wait for it, or remove this file if that process is gone.")
-        # Taken aside by one process only; if it is not what was looked at, someone else was faster.
+        # Only one process can rename it. If it changed meanwhile, another process was faster.
         aside = self._path.with_name(f"lock.{os.getpid()}.stale")
         with contextlib.suppress(FileNotFoundError):
             self._path.rename(aside)
@@ -116,7 +116,7 @@ def _may_run(holder: Mapping[str, Any]) -> bool:
         return False
     except PermissionError:
         pass
-    # The number of a process that is gone is given to another one, soon after a restart of the machine.
+    # Numbers of ended processes are used again, soon after a restart of the machine.
     return holder.get("began") in (None, _began(process))
 
 

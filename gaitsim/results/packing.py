@@ -23,7 +23,7 @@ _FILES = re.compile(
 )
 _FOLDERS = re.compile(r"(components/(\w+/)?)?")
 _NAME = re.compile(r"\w[\w.-]{0,199}")
-_EPOCH = (1980, 1, 1, 0, 0, 0)  # the first day that a zip file can name
+_EPOCH = (1980, 1, 1, 0, 0, 0)  # the earliest date of a zip file
 _MOST_FILES, _MOST_BYTES, _PIECE = 10_000, 2**30, 2**20
 _ANEW = "ask for a file that gaitsim results export made"
 

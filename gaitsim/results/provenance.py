@@ -85,7 +85,7 @@ def _commit(folder: Path) -> dict[str, Any] | None:
 
 
 def _status(folder: Path) -> str:
-    # A checkout may name a program that watches its files, which this would start.
+    # A checkout can configure a file monitor, which git would start.
     return _git("-c", "core.fsmonitor=false", "status", "--porcelain", folder=folder)
 
 

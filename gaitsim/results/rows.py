@@ -12,7 +12,7 @@ from gaitsim.errors import Fault, Mark, Usage
 from gaitsim.results.manifest import BadResult
 from gaitsim.simulation.outcome import Outcome
 
-COMPARED = ("status", "score", "metrics", "steps")  # what makes two runs the same
+COMPARED = ("status", "score", "metrics", "steps")  # what two equal runs have in common
 
 
 def read_rows(folder: Path, begun: bool = False) -> list[dict[str, Any]]:

@@ -26,7 +26,7 @@ def remember(bundle: Bundle) -> None:
     known, folder = _known_here(), state_folder()
     new = [digest for digest in _code_in(bundle).values() if digest not in known]
     if new and folder is not None:
-        # Where this cannot be written, the result asks for --trust later: no reason to end a run now.
+        # If this cannot be written, --trust is needed later; the run continues.
         with contextlib.suppress(OSError):
             folder.mkdir(parents=True, exist_ok=True)
             with (folder / _MEMORY).open("a", encoding="utf-8") as file:
@@ -45,14 +45,14 @@ def check_trust(bundle: Bundle, trusted: bool) -> None:
     """
     if trusted:
         return
-    strange = strangers(bundle)
+    strange = unknown_components(bundle)
     if strange:
         names = ", ".join(shown(bundle.folder / path) for path in strange)
         rule = "running it would run code that this machine does not know"
         raise Untrusted(f"{bundle.folder}: {rule}: {names}; read these files, then use --trust.")
 
 
-def strangers(bundle: Bundle) -> list[str]:
+def unknown_components(bundle: Bundle) -> list[str]:
     """The Python component files that this machine does not know, as paths in the bundle."""
     known = _known_here() | set(_shipped())
     return [path for path, digest in _code_in(bundle).items() if digest not in known]

@@ -16,7 +16,7 @@ from gaitsim.units import Quantity, Unit, UnknownUnit, parse_quantity
 from gaitsim.whole import write_whole
 
 _ABOUT = "Written by gaitsim optimize --adopt; not by hand."
-_FORMAT = 2  # a file that says none has numbers in SI, whatever unit stands beside them
+_FORMAT = 2  # without a format, numbers are in SI whatever unit they have
 _ANEW = "write the file again with optimize --adopt."
 
 

@@ -31,7 +31,7 @@ def run_all(
         InvalidSpec: A model cannot be prepared.
         InvalidComponent: A component cannot become native code.
     """
-    # Prepared one after the other: compiling components is not for threads.
+    # Prepared one after the other, because compiling is not thread-safe.
     simulators = [_simulator(model, mode, prepared) for model in models]
     return in_threads([simulator.run for simulator in simulators], cores())
 

@@ -65,7 +65,7 @@ def _move(run: Checked, step: int, begin: tuple[Floats, Floats], span: float) ->
     """Move from the coordinates and rates at the beginning on for a time, and compute all outputs there."""
     model, data = run.physics.model, run.physics.data
     position, speed = begin
-    # Not 0: the sum with a rate of -0 would lose its sign, which native code keeps.
+    # Not 0: adding a rate of -0 would lose the sign, which native code keeps.
     velocities, accelerations = np.full_like(position, -0.0), np.full_like(speed, -0.0)
     data.qpos[:], data.qvel[:] = begin
     for stage, (share, weight) in enumerate(RUNGE_KUTTA):

@@ -11,7 +11,7 @@ from gaitsim.compiler.mechanics.ground import GROUND
 from gaitsim.compiler.mechanics.places import Touching
 from gaitsim.errors import SimulationFailed
 
-_ABOVE = 100.0  # m: from where one looks down for the ground
+_ABOVE = 100.0  # m: the height from which the ground is searched downwards
 
 
 def stand(model: Any, data: Any, lift: int, touching: tuple[Touching, ...]) -> None:
@@ -45,6 +45,6 @@ def _gap(model: Any, data: Any, place: Touching) -> float:
         turn = data.geom_xmat[g]
         depth = mujoco.mju_rayGeom(data.geom_xpos[g], turn, model.geom_size[g], above, down, model.geom_type[g])
         if depth >= 0:
-            # On a slope a sphere is next to the ground beside its lowest point: r / cos, not r.
+            # On a slope, a sphere touches the ground beside its lowest point: r / cos, not r.
             gaps.append(depth - _ABOVE - place.radius / turn[8])
     return float(min(gaps)) if gaps else float("nan")

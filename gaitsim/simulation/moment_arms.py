@@ -18,10 +18,10 @@ from gaitsim.simulation.physics import Physics
 
 _FREE = np.radians(150.0)  # to either side, of a hinge that declares no limits
 _POINTS = 601
-_SMOOTH = 10  # of these points one is enough where the arm is a function of the angle
+_SMOOTH = 10  # a declared moment arm is evaluated at every so many points
 _TURN = 1e-6  # rad, for the derivative
-_SAGITTAL = 0.9  # of an axis of length 1: its part to the left, if it is nearer to that way than 26 deg
-_NOTHING = 1e-6  # m; a path that runs through the axis has no side
+_SAGITTAL = 0.9  # component of a unit axis to the left, within 26 deg of that direction
+_NOTHING = 1e-6  # m; a smaller arm has no sign
 
 
 @dataclass(frozen=True)
@@ -141,7 +141,7 @@ def _of_points(model: Model, physics: Physics, hinge: _Hinge) -> Iterator[Moment
         tendon, path = tie_place(mechanics, tie), model.parts[i]
         arms = -(after[:, tendon] - before[:, tendon]) / (2 * _TURN)
         now = float(arms[-1])
-        # Where the path slips within the tiny turn, the quotient means nothing.
+        # If the path slips within the small rotation, the quotient is meaningless.
         arms[np.abs(arms) > 10] = np.nan
         known = np.flatnonzero(~np.isnan(arms[:-1]))
         if np.nanmax(np.abs(arms)) > _NOTHING:

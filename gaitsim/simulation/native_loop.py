@@ -119,7 +119,7 @@ class NativeLoop:
         tables = self._tables(values)
         code, addresses = self._bound()
         step = np.zeros(1, dtype=np.int64)
-        # What refers to an array holds it: these must be there for as long as a thread computes in them.
+        # These references keep the arrays alive while a thread computes with them.
         held = {
             "parameters": tables.p,
             "base": tables.base,
@@ -155,7 +155,7 @@ class NativeLoop:
         try:
             started, status = interruptible(compute)
         except KeyboardInterrupt:
-            self.physics = Physics(self.program)  # the old one is still computed in
+            self.physics = Physics(self.program)  # a thread still computes with the old one
             raise
         return _Reached(started, status, int(step[0]), tables)
 

@@ -66,7 +66,7 @@ class Physics:
             self._built_for = key
             self.data = mujoco.MjData(self.model)
         mujoco.mj_resetData(self.model, self.data)
-        # MuJoCo prints and logs a warning the first time only; the loops watch for themselves.
+        # MuJoCo would print and log a warning the first time; the loops make their own checks.
         self.data.warning.number[:] = 1
         self.data.userdata[:] = self.assembly.constants
         given: dict[str, list[int]] = {"qpos": [], "qvel": []}

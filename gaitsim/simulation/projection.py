@@ -12,7 +12,7 @@ from gaitsim.compiler.program import Floats
 from gaitsim.errors import SimulationFailed
 
 _CLOSED = 1e-12  # m or rad; MuJoCo's lengths are good to 1e-14 or so
-_LARGEST_STEP = 0.5  # m or rad; a longer one may jump to another posture
+_LARGEST_STEP = 0.5  # m or rad; a longer step may lead to another posture
 _MOST_STEPS = 50
 
 

@@ -77,7 +77,7 @@ class PythonLoop:
                 done += 1
         except Failed as error:
             failure = str(error)
-        # As in native code: the instant at which a part fails is not in the record; that before a divergence is.
+        # As in native code, the instant at which a part fails is not recorded; that before a divergence is.
         record = record[: done + (stopper is not None or diverged is not None)]
         rows = np.array(record).reshape(-1, len(self.program.signals)) if recorded else None
         return LoopResult(done, stopper, failure, tables.p, tables.x, rows)
@@ -108,7 +108,7 @@ class Checked:
         self._read()
         for i in range(STARTING_ROUNDS):
             early = i < STARTING_ROUNDS - 1
-            # What an early round says of inputs that are not there yet is not a failure.
+            # Errors in early rounds, in which inputs are missing, are not failures.
             with np.errstate(all="ignore") if early else contextlib.nullcontext():
                 self._outputs(0, starting=True, lenient=early)
             self._fill_delays()

@@ -82,7 +82,7 @@ class Simulator:
             with np.errstate(all="ignore" if self.mode == "rapid" else "warn"):
                 ending: LoopResult = self._loop.run(values, steps, recorded)
         except (SimulationFailed, InvalidSpec, InvalidComponent) as error:
-            # The spec's own numbers were checked: here only a candidate makes an invalid model.
+            # The spec's own numbers were checked, so only a candidate can make an invalid model here.
             wall = time.perf_counter() - began
             return Outcome("failed", str(error), 0, simulate.step, {}, None, wall)
         metrics, score, failure = self._judged(ending, values)

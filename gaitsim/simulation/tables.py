@@ -53,7 +53,7 @@ class Tables:
         delays = program.delay_steps(numbers)
         whole = np.floor(delays)
         before = [np.nan if line.initial is None else values[line.initial] for line in program.delays]
-        # A line keeps its delay, two more to interpolate, and one to write.
+        # A line has its delay, two more rows to interpolate, and one to write.
         rows = 1 << int(np.max(np.ceil(delays), initial=0) + 2).bit_length()
         return Tables(
             program.parameter_table(numbers),

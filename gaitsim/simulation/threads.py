@@ -75,7 +75,7 @@ def interruptible(call: Callable[[], Result]) -> Result:
     main = threading.current_thread() is threading.main_thread()
     if not main or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         return call()
-    # A thread that is waiting is kept for the next call; one that was left to itself does not come back.
+    # Waiting threads are kept for the next call; an abandoned one does not return.
     calls = _idle.pop() if _idle else _hired()
     answer: Future[Result] = Future()
     calls.put((call, answer))

@@ -45,7 +45,7 @@ class Wiring:
             name: self._frame(text, f"{part.address}.{name}", part.mark) for name, text in part.attachments.items()
         }
         points, places = self._followed(part.points), self._followed(part.places)
-        # A place that could not be read has been told of already.
+        # A place that could not be read was reported already.
         attachments |= {name: each[0].frame if each else WORLD for name, each in places.items()}
         return replace(part, constants=constants, attachments=attachments, points=points, places=places)
 

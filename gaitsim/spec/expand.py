@@ -11,7 +11,7 @@ from dataclasses import dataclass, field, replace
 from gaitsim.component import Input, Parameter
 from gaitsim.component import Part as InnerPart
 from gaitsim.components.composite import ComponentFile, Composite
-from gaitsim.components.find import Library, at
+from gaitsim.components.find import Library, faults_at
 from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Faults, GaitsimError, Mark, did_you_mean, nearest, with_article
 from gaitsim.model import Group, Part, Place, Recording
@@ -141,7 +141,7 @@ class Expansion:
     def _component(self, node: MappingNode, where: Where) -> tuple[ComponentFile | None, frozenset[str]]:
         use = node.entries.get("use")
         if use is None:
-            # An entry without `use` sets something of a part that is there: of which, if it is not?
+            # An entry without `use` changes an existing part. If there is none, which one was meant?
             name = where.address.rpartition(".")[2]
             near = nearest(name, where.scope.children.keys() - {name})
             hint = f" Did you mean {near}?" if near else ""
@@ -154,7 +154,7 @@ class Expansion:
         try:
             return self.library.find(use.value), node.swapped
         except GaitsimError as error:
-            for fault in at(use.mark, where.address, error):
+            for fault in faults_at(use.mark, where.address, error):
                 self.faults.add(fault.message, fault.mark, fault.address)
             return None, node.swapped
 

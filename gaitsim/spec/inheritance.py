@@ -70,7 +70,7 @@ def with_parents(path: Path, shown: str, read: Callable[[Path, str], MappingNode
             raise InvalidSpec(Fault(f"{rule}; remove one extends.", parent.mark, "extends"))
         seen.append(os.path.realpath(path))
         documents.append(_parent(path, shown, parent.mark, read))
-    # What a parent reproduces, a spec that changes it need not.
+    # A changed spec need not reproduce the values of its parent.
     documents[1:] = [without(each, "reproduces") for each in documents[1:]]
     result, *children = [without(each, "extends") for each in reversed(documents)]
     for child in children:
@@ -204,7 +204,7 @@ def _is_value(node: Node) -> bool:
 def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], MappingNode]) -> MappingNode:
     """Read a parent. A fault of the file as a whole is reported at the place that names it."""
     try:
-        # Whoever wrote `extends:` chose the file: of one that is not a spec, no word is repeated.
+        # The writer of `extends:` chose the file, so messages quote nothing of a file that is not a spec.
         if not _SPEC.search(document.text_of(path, shown)):
             rule = f"{shown} is not a spec, as it has none of a spec's sections, such as parts:"
             raise InvalidSpec(Fault(f"{rule}; name a spec.", mark, "extends"))

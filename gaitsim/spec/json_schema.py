@@ -70,7 +70,7 @@ def spec_schema(library: Library) -> dict[str, Any]:
         schema["properties"][section]["additionalProperties"] = {"$ref": "#/$defs/part"}
     about = schema["properties"]["objective"]["description"]
     schema["properties"]["objective"] = {"$ref": "#/$defs/part", "description": about}
-    # What a spec lacks may stand in the one that it extends.
+    # Required keys may be in the parent of a spec.
     own = {"required": schema.pop("required")}
     own["properties"] = {"simulate": {"required": definitions["SimulateSection"].pop("required")}}
     schema["anyOf"] = [own, {"required": ["gaitsim", "extends"]}]

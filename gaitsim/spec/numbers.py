@@ -11,13 +11,12 @@ from gaitsim.model import Free, Number
 from gaitsim.spec.inheritance import VALUE_KEYS
 from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode
 from gaitsim.text.expression import BadExpression, parse_expression
-from gaitsim.text.quantity import comma_within, example, number, written_unit
-from gaitsim.text.quantity import said as said_of
+from gaitsim.text.quantity import comma_within, example, number, quoted, written_unit
 from gaitsim.text.spelling import respelled
 from gaitsim.units import parse_unit, with_unit
 
 Names = dict[str, tuple[int, str]]
-_SPEC = "spec"  # the source of what a spec says without one
+_SPEC = "spec"  # the source of numbers that a spec sets without one
 
 
 def is_value(node: Node) -> bool:
@@ -135,7 +134,7 @@ class NumberTable:
         node = respelled(node, sorted(VALUE_KEYS), "a value has no key", self.faults, address)
         source = node.entries.get("source")
         value_node = node.entries.get("value")
-        # A declaration's source is that of its own value only.
+        # The source in a declaration belongs to its default only.
         unsaid = declared.source if value_node is None else _SPEC
         origin = str(source.value) if isinstance(source, ScalarNode) else unsaid
         value: float | None = None
@@ -171,7 +170,7 @@ class NumberTable:
         start = (low + high) / 2 if value is None else value
         if not low <= start <= high:
             written = node.entries.get("value")
-            shown = said_of(written) if written else f"by default {unit.of(start):g}"
+            shown = quoted(written) if written else f"by default {unit.of(start):g}"
             rule = f"the start, {shown}, is outside {unit.span(low, high)}"
             self.faults.add(f"{rule}; move it, or widen tune.", (written or node).mark, address)
         spread_node = node.entries.get("spread")
@@ -179,7 +178,7 @@ class NumberTable:
         if spread_node is not None:
             given = number(spread_node, declared.unit, self.faults, address)
             if given is not None and given <= 0:
-                rule = f"a spread is above 0, and this is {said_of(spread_node)}; write such as a quarter of the range."
+                rule = f"a spread is above 0, and this is {quoted(spread_node)}; write such as a quarter of the range."
                 self.faults.add(rule, spread_node.mark, address)
             spread = given or spread
         known = self._free.get(key)
@@ -202,7 +201,7 @@ class NumberTable:
             self._within(bound, declared, item, address)
         if low >= high:
             word, move = ("reversed", "exchange them") if low > high else ("equal", "write a lower and a higher one")
-            rule = f"the bounds {said_of(node.items[0])} and {said_of(node.items[1])} are {word}; {move}."
+            rule = f"the bounds {quoted(node.items[0])} and {quoted(node.items[1])} are {word}; {move}."
             self.faults.add(rule, node.mark, address)
             return None
         return low, high
@@ -215,7 +214,7 @@ class NumberTable:
         given = unit.of(value)
         if not low - 1e-12 * abs(low) <= given <= high + 1e-12 * abs(high):
             shown = unit.shown(value)
-            words = said_of(node) if isinstance(node, ScalarNode) else f'"{shown}"'
+            words = quoted(node) if isinstance(node, ScalarNode) else f'"{shown}"'
             if words != f'"{shown}"':
                 words += f" is {shown}, which"
             rule = f"{words} is outside {unit.span(unit.to_si(low), unit.to_si(high))}"

@@ -11,7 +11,7 @@ from gaitsim.spec.expand import Expansion
 from gaitsim.spec.inheritance import without
 from gaitsim.spec.scope import Scope
 from gaitsim.text.document import MappingNode, Node
-from gaitsim.text.quantity import measured, said
+from gaitsim.text.quantity import measured, quoted
 from gaitsim.units import parse_unit
 
 
@@ -74,7 +74,7 @@ def _terms(
     if not isinstance(node, MappingNode):
         sample = "{effort: {use: objective/minimize, value: {from: effort}}}"
         expansion.faults.add(
-            f"{said(node)} is not a mapping of names; write such as terms: {sample}.", node.mark, address
+            f"{quoted(node)} is not a mapping of names; write such as terms: {sample}.", node.mark, address
         )
         return ()
     found = []

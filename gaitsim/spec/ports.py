@@ -10,7 +10,7 @@ from gaitsim.errors import Faults, Mark, did_you_mean
 from gaitsim.spec.numbers import Names, NumberTable, is_value
 from gaitsim.spec.scope import Where, absolute
 from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode
-from gaitsim.text.quantity import said as said_of
+from gaitsim.text.quantity import quoted
 from gaitsim.text.spelling import respelled
 
 _DELAY = Parameter("s", "a delay", bounds=(0, 3600))
@@ -47,7 +47,7 @@ class PortReader:
     faults: Faults
     wires: list[Wire] = field(default_factory=list)
     constants: list[Constant] = field(default_factory=list)
-    tried: set[str] = field(default_factory=set)  # inputs that an entry says something about
+    tried: set[str] = field(default_factory=set)  # inputs that an entry mentions
     marks: dict[str, Mark] = field(default_factory=dict)  # where attachments are written
 
     def wire(self, sender: str, target: str, where: Where) -> None:
@@ -132,7 +132,7 @@ class PortReader:
         if value in declared.choices and (given is None or isinstance(given, ScalarNode)):
             return str(value)
         choices = ", ".join(declared.choices)
-        said = "is not said" if given is None else f"cannot be {said_of(given)}"
+        said = "is not said" if given is None else f"cannot be {quoted(given)}"
         mark = given.mark if given else where.mark
         self.faults.add(f"{name} {said}; choose one of {choices}.", mark, where.address)
         return declared.choices[0]

@@ -158,7 +158,7 @@ def _check_names(document: MappingNode) -> None:
     taken = {WORLD: "the ground"} | dict.fromkeys(Header.model_fields, "a section of specs")
     for section in ("parameters", "parts", "measures"):
         inside = _section(document, section)
-        # Below each other, leg_l says what differs from leg.
+        # Within one section, leg_l overrides leg.
         marks = {f"{name}_{side}": inside.keys[name] for name, node in inside.entries.items() for side in sides(node)}
         for name, mark in (marks | inside.keys).items():
             if name in taken:

@@ -56,7 +56,7 @@ _SAMPLES = {
     "source": "geyer2003",
 }
 _SHARE = re.compile(r"0?\.\d+|[01]|1\.0*|0\.")  # a number from 0 to 1
-_MOST_STEPS = 1e12  # days of computing, and what an integer of 64 bits holds with ease
+_MOST_STEPS = 1e12  # days of computing; well within 64-bit integers
 
 
 def _combination(value: object) -> str:

@@ -89,7 +89,7 @@ def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:
             base = here.children[first]
             return f"{base}.{rest}" if rest else base
         known += here.children
-        # A composite's own text sees its siblings only; an override sees what its writer sees.
+        # The text of a composite has access to its siblings only; an override has the scope of its writer.
         here = here.outer if mark.file != here.file else None
     faults.add(f"there is no part {first} here. {did_you_mean(first, known)}", mark, where.address)
     return None

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from gaitsim.component import Series
-from gaitsim.components.find import Library, at
+from gaitsim.components.find import Library, faults_at
 from gaitsim.components.table import resampled
 from gaitsim.errors import Faults, GaitsimError
 from gaitsim.model import Recording
@@ -57,7 +57,7 @@ def read_series(
     try:
         table = library.table(reference)
     except GaitsimError as error:
-        for fault in at(node.mark, address, error):
+        for fault in faults_at(node.mark, address, error):
             faults.add(fault.message, fault.mark, fault.address)
         return None
     if column not in table.columns:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from gaitsim.errors import Faults, Mark, Usage
 from gaitsim.spec.inheritance import laid, override, split_setting, without
 from gaitsim.text.document import MappingNode, Node, SequenceNode, dump, plain
-from gaitsim.text.quantity import in_plain_letters, said, unknown_unit
+from gaitsim.text.quantity import in_plain_letters, quoted, unknown_unit
 from gaitsim.units import UnknownUnit, parse_quantity, with_unit
 
 _RANGE_LIMIT = 100_000
@@ -99,9 +99,8 @@ def _table(section: Node | None, key: Mark | None, base: MappingNode, name: str)
     word = name.rpartition(".")[2]
     for item in section.items if isinstance(section, SequenceNode) else (section,):
         if not isinstance(item, MappingNode) or item is section:
-            rule = (
-                f"{said(item)} is not a list of overrides; write {word}: [{{feedback.gain: 2}}, {{feedback.gain: 3}}]."
-            )
+            sample = "[{feedback.gain: 2}, {feedback.gain: 3}]"
+            rule = f"{quoted(item)} is not a list of overrides; write {word}: {sample}."
             faults.add(rule, key if item is section else item.mark, name)
             continue
         row = base

@@ -26,7 +26,7 @@ from gaitsim.study.listening import Listener
 from gaitsim.study.records import SCORE, SHORT, STEPS, Difference, Row, Value, differences, read_record, record_path
 from gaitsim.study.uses import Scope, UsingResult, using_results, using_specs
 
-RELATIVE = 1e-6  # a result has no tolerances of its own; what rounding does to a steady gait is less
+RELATIVE = 1e-6  # results have no tolerances; rounding changes a steady gait by less
 
 
 @dataclass(frozen=True)

@@ -43,8 +43,8 @@ from gaitsim.study.records import (
 )
 from gaitsim.text.document import dump, plain
 
-# Another machine rounds otherwise, by 1e-16 of a number at each operation. A billionth of gravity is far more than
-# that, so what it changes tells how far numbers may lie apart; below the first number nothing of interest happens.
+# Other machines round differently, by 1e-16 of a number in each operation. A billionth of gravity is far more than
+# that, so its effect shows how far numbers may differ. Differences below the first number are ignored.
 _NUDGE = 1e-9
 _RELATIVE, _RESPONSES, _ABSOLUTE = 1e-6, 2.0, 1e-12
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gaitsim.errors import Usage
-from gaitsim.study.limits import Hunt, Scan, hunted, resumed
+from gaitsim.study.limits import LimitRuns, Scan, limit_runs, resumed
 
 if TYPE_CHECKING:
     from gaitsim.simulation.run import Mode
@@ -21,7 +21,7 @@ def begun_or_resumed(
     resume: bool,
     root: Path | None,
     listener: Listener,
-) -> Hunt:
+) -> LimitRuns:
     """Begin new limits, or continue those that a result began.
 
     Args:
@@ -45,4 +45,4 @@ def begun_or_resumed(
         raise Usage(f"{rule}, or --resume a result.")
     scan = Scan(**{name: asked[name] for name in ("points", "tolerance") if asked[name] is not None})
     mode: Mode = "normal" if asked["mode"] == "normal" else "rapid"
-    return hunted(opening, asked["vary"], asked["until"], scan, asked["from"], mode, root, listener)
+    return limit_runs(opening, asked["vary"], asked["until"], scan, asked["from"], mode, root, listener)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gaitsim.cluster.cohort import RowVerdict
-from gaitsim.cluster.patience import Patience
+from gaitsim.cluster.time_limits import TimeLimits
 from gaitsim.errors import Fault, InvalidComponent, InvalidSpec, Mark, Usage
 from gaitsim.model import Model
 from gaitsim.optimization.evaluation import Candidate, Verdict
@@ -37,7 +37,7 @@ from gaitsim.study.workplace import Task, Workplace
 if TYPE_CHECKING:
     import pandas
 
-_PATIENCE = Patience()
+_TIME_LIMITS = TimeLimits()
 _TABLE = "table.csv"
 
 
@@ -163,9 +163,9 @@ class CohortRuns:
         missing = [Candidate(0, i, (float(i),)) for i in range(len(self.cohort.rows)) if i not in self.found]
         if not missing:
             return
-        # A row may take as long as its whole search.
-        patience = replace(_PATIENCE, least=_PATIENCE.least * (1 + self.cohort.retune))
-        evaluator = workplace.evaluator(Task(self.bundle, self.mode, patience), listener.say)
+        # A row may take the time of a whole search.
+        time_limits = replace(_TIME_LIMITS, least=_TIME_LIMITS.least * (1 + self.cohort.retune))
+        evaluator = workplace.evaluator(Task(self.bundle, self.mode, time_limits), listener.say)
         try:
             for evaluation, _, _ in evaluator(missing):
                 yield evaluation.candidate.index, _found(evaluation.verdict, self.model.simulate.step)

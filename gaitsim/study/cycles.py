@@ -16,10 +16,10 @@ from gaitsim.study.listening import Listener
 from gaitsim.study.opening import Opening, only_row
 from gaitsim.units import parse_unit
 
-_INITIAL = "initial_"  # what the parameter of a spec is called that a section returns to
+_INITIAL = "initial_"  # the prefix of parameters that a section returns to
 _SECTION = "measure/section"
-_SHIFT = 1e-5  # of a number at the start, in SI, for the slopes of the map
-_CLOSED = 1e-11  # how far a fixed point may be from where it returns to, in SI
+_SHIFT = 1e-5  # the change of a number at the start for derivatives of the map, in SI
+_CLOSED = 1e-11  # the largest distance of a fixed point from its image, in SI
 _ROUNDS = 30
 
 
@@ -185,7 +185,7 @@ def _next(of: ReturnMap, start: Floats, step: Floats, away: Floats) -> Floats:
 
 def _cycle(of: ReturnMap, start: Floats, slopes: Floats, distance: float) -> Cycle:
     eigenvalues = sorted((complex(each) for each in np.linalg.eigvals(slopes)), key=lambda e: (-abs(e), -e.imag))
-    # The second passage has seen a whole cycle: contact times, speeds and the like are those of the gait by then.
+    # After the second passage, contact times, speeds and the like belong to a whole cycle.
     found = of.metrics(start, 2)
     metrics = {name: found[name] for name in _sections(of.model)}
     period = of.metrics(start)[f"{of.measures[0]}.period"]

@@ -150,7 +150,7 @@ Row = tuple[dict[str, str], Outcome]
 
 
 @dataclass
-class Hunt:
+class LimitRuns:
     """The limits of several numbers of one spec. Each number is varied alone.
 
     Attributes:
@@ -173,7 +173,7 @@ class Hunt:
 
     def __repr__(self) -> str:
         found = "; ".join(f"{limit.address} holds up to {limit.last}" for limit in self.limits)
-        return f"<Hunt: {found}; {len(self.rows)} runs; {self.folder or 'not kept'}>"
+        return f"<LimitRuns: {found}; {len(self.rows)} runs; {self.folder or 'not kept'}>"
 
     def run(self, listener: Listener) -> None:
         """Find all limits, and save each run when it ends.
@@ -247,7 +247,7 @@ class Hunt:
             raise SimulationFailed(faults)
 
 
-def hunted(
+def limit_runs(
     opening: Opening,
     vary: Sequence[str],
     until: str | None,
@@ -256,7 +256,7 @@ def hunted(
     mode: Mode,
     root: Path | None,
     listener: Listener,
-) -> Hunt:
+) -> LimitRuns:
     """Prepare a search for limits. Nothing is run yet.
 
     Args:
@@ -286,10 +286,10 @@ def hunted(
         opened, notices = started_from(replace(opened, notices=()), opening, origin)
         opened = replace(opened, notices=tuple(notices))
     asked = {"vary": list(vary), "until": until, "points": scan.points, "tolerance": scan.tolerance}
-    return _hunt(opened, opening, limits, asked, mode, root, listener)
+    return _limit_runs(opened, opening, limits, asked, mode, root, listener)
 
 
-def resumed(opening: Opening, listener: Listener) -> Hunt:
+def resumed(opening: Opening, listener: Listener) -> LimitRuns:
     """Open the limits of a result to continue them. Its runs are not repeated.
 
     Raises:
@@ -314,12 +314,12 @@ def resumed(opening: Opening, listener: Listener) -> Hunt:
         raise BadResult(f"{opening.path}: {rule}; install those, or start again.")
     rows = read_rows(opening.path, begun=True)
     mode: Mode = "normal" if opened.manifest["mode"] == "normal" else "rapid"
-    hunt = _hunt(opened, opening, limits, asked, mode, None, listener)
-    step = opened.model(hunt.document).simulate.step
-    hunt.before = [({**row["settings"]}, outcome_of(row, step)) for row in rows]
-    hunt.keeping.go_on(opening.path, rows)
+    runs = _limit_runs(opened, opening, limits, asked, mode, None, listener)
+    step = opened.model(runs.document).simulate.step
+    runs.before = [({**row["settings"]}, outcome_of(row, step)) for row in rows]
+    runs.keeping.go_on(opening.path, rows)
     listener.say(f"resuming {opening.path}: {len(rows)} runs are in it")
-    return hunt
+    return runs
 
 
 def _recorded(folder: Path, manifest: Mapping[str, Any]) -> tuple[dict[str, Any], list[Limit]]:
@@ -352,7 +352,7 @@ class _Asked(BaseModel):
     tolerance: float
 
 
-def _hunt(
+def _limit_runs(
     opened: Opened,
     opening: Opening,
     limits: list[Limit],
@@ -360,7 +360,7 @@ def _hunt(
     mode: Mode,
     root: Path | None,
     listener: Listener,
-) -> Hunt:
+) -> LimitRuns:
     """Make the search; unusual starts are reported."""
     row = only_row(opened, opening.path)
     model = opened.model(row.document)
@@ -368,4 +368,4 @@ def _hunt(
         listener.say(notice)
     until = until_of(asked["until"], model)
     keeping = Keeping(root, opened, [model], mode, more={"limit": asked})
-    return Hunt(opened, row.document, row.settings, limits, until, mode, Starts(opened), keeping)
+    return LimitRuns(opened, row.document, row.settings, limits, until, mode, Starts(opened), keeping)

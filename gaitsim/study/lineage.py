@@ -126,7 +126,7 @@ def _at(commit: _Commit, folder: Path, library: Library) -> str:
 
 def _git(folder: Path, *words: str) -> str:
     """The output of git; empty outside of a checkout, or without git."""
-    # A checkout may name a program that watches its files, which this would start.
+    # A checkout can configure a file monitor, which git would start.
     command = ["git", "-c", "core.fsmonitor=false", "-c", "core.quotePath=false", *words]
     try:
         ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=30, encoding="utf-8")

@@ -27,7 +27,7 @@ class Listener(Protocol):
         """A block that takes long and reports no progress."""
 
 
-class Logged:
+class LogListener:
     """A listener for notebooks: warnings and errors are logged as warnings, other notices as information."""
 
     def say(self, text: str) -> None:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gaitsim.folders import results_folder
-from gaitsim.study.listening import Logged
+from gaitsim.study.listening import LogListener
 from gaitsim.study.opening import Opening
 
 if TYPE_CHECKING:
@@ -107,10 +107,10 @@ def run(
     file = None if out is None else Path(out)
     drawn = draws_asked(draws, within, seed, varied, file)
     opened = opening(path, set, library, start, trust, candidate, results)
-    runs = prepared(opened, varied, drawn, mode, Places(_root(results) if save else None, file, every), Logged())
-    runs.run(Logged())
+    runs = prepared(opened, varied, drawn, mode, Places(_root(results) if save else None, file, every), LogListener())
+    runs.run(LogListener())
     if runs.unsaved:
-        Logged().say_error(runs.unsaved)
+        LogListener().say_error(runs.unsaved)
     return runs
 
 
@@ -205,7 +205,7 @@ def optimize(
     workplace = Workplace(workers, scheduler is not None or file is not None, scheduler, file)
     workplace.check()
     tuning = (resumed if resume else begun)(request, _root(results))
-    began, log = time.perf_counter(), Logged()
+    began, log = time.perf_counter(), LogListener()
     progress = tuning.run(workplace, lambda progress: None, log.say)
     wall = time.perf_counter() - began
     adoption = adopted(tuning, request, workplace, progress, force) if adopt else None
@@ -243,7 +243,7 @@ def analyze(
     many = {name: _several(value) for name, value in wanted.items() if name in _MANY}
     folder = {"folder": Path(wanted["folder"])} if wanted.get("folder") is not None else {}
     opened = [opening(path, set, library, start, trust, results=results) for path in paths]
-    return analyzed(opened, _several(candidate), Wanted(**(wanted | many | folder)), Logged())
+    return analyzed(opened, _several(candidate), Wanted(**(wanted | many | folder)), LogListener())
 
 
 def check(
@@ -268,7 +268,7 @@ def check(
     """
     from gaitsim.study.soundness import checked
 
-    return checked(opening(path, set, library, start=not convergence, trust=trust), convergence, Logged())
+    return checked(opening(path, set, library, start=not convergence, trust=trust), convergence, LogListener())
 
 
 _MANY = ("plot", "return_map", "export", "scopes", "formats")

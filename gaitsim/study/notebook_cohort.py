@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gaitsim.folders import results_folder
-from gaitsim.study.listening import Logged
+from gaitsim.study.listening import LogListener
 from gaitsim.study.notebook import File, Settings, opening, ranges
 
 if TYPE_CHECKING:
@@ -75,7 +75,7 @@ def cohort(
         root = results_folder(None if results is None else Path(results)) if save else None
         asked = Asked(Path(bodies), ranges(vary), retune, seed, metrics)
         runs = cohort_runs(opened, asked, mode, root)
-    runs.run(workplace, Logged())
+    runs.run(workplace, LogListener())
     if runs.keeping.error:
         raise runs.keeping.error
     return runs

@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gaitsim.folders import results_folder
-from gaitsim.study.listening import Logged
+from gaitsim.study.listening import LogListener
 from gaitsim.study.notebook import File, Settings, opening
 
 if TYPE_CHECKING:
     from gaitsim.simulation.run import Mode
     from gaitsim.study.cycles import Cycle
-    from gaitsim.study.limits import Hunt
+    from gaitsim.study.limits import LimitRuns
 
 
 def limit(
@@ -33,7 +33,7 @@ def limit(
     start: bool = False,
     trust: bool = False,
     library: Sequence[File] = (),
-) -> Hunt:
+) -> LimitRuns:
     """Find how far numbers can be varied before a run fails, each number alone.
 
     Args:
@@ -64,11 +64,11 @@ def limit(
     ranges = [f"{address}={ends}" for address, ends in vary.items()] if vary is not None else None
     asked = {"vary": ranges, "until": until, "tolerance": tolerance, "points": points, "mode": mode, "from": origin}
     root = results_folder(None if results is None else Path(results)) if save else None
-    hunt = begun_or_resumed(opened, asked, resume, root, Logged())
-    hunt.run(Logged())
-    if hunt.keeping.error:
-        raise hunt.keeping.error
-    return hunt
+    runs = begun_or_resumed(opened, asked, resume, root, LogListener())
+    runs.run(LogListener())
+    if runs.keeping.error:
+        raise runs.keeping.error
+    return runs
 
 
 def cycle(
@@ -99,5 +99,5 @@ def cycle(
     """
     from gaitsim.study.cycles import cycle as found
 
-    log = Logged()
+    log = LogListener()
     return found(opening(path, set, library, start, trust, candidate, results), mode, log, log.progress(""))

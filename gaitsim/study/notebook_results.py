@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from gaitsim.folders import results_folder
-from gaitsim.study.listening import Logged
+from gaitsim.study.listening import LogListener
 from gaitsim.study.notebook import File, opening
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ def compare(
     from gaitsim.study.comparison import compared
 
     one, other = (opening(path, None, library, False, trust, None, results) for path in (first, second))
-    return compared(one, other, Logged(), figures, None if folder is None else Path(folder))
+    return compared(one, other, LogListener(), figures, None if folder is None else Path(folder))
 
 
 def export_result(path: File, out: File | None = None, *, results: File | None = None) -> Path:

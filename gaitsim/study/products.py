@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeVar
 from gaitsim.errors import ExitCode, GaitsimError
 from gaitsim.exchange.formats import FORMATS, Export
 from gaitsim.results.store import CannotSave
-from gaitsim.study.listening import Listener, Logged
+from gaitsim.study.listening import Listener, LogListener
 
 if TYPE_CHECKING:
     from gaitsim.analysis.drawings.drawing import Drawing, Figures
@@ -40,7 +40,7 @@ class Products:
     report: Path | None = None
     faults: list[GaitsimError] = field(default_factory=list)
     lacks: list[str] = field(default_factory=list)
-    listener: Listener = field(default_factory=Logged)
+    listener: Listener = field(default_factory=LogListener)
 
     @property
     def exit_code(self) -> int:

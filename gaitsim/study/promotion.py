@@ -28,7 +28,7 @@ from gaitsim.study.listening import Listener
 from gaitsim.study.uses import Scope
 from gaitsim.whole import write_whole
 
-_BESIDE = 'Path(__file__).parents[1] / "components"'  # how a test of `library new` finds its component
+_BESIDE = 'Path(__file__).parents[1] / "components"'  # how tests of `library new` find their component
 _WRITTEN = frozenset(
     node.name for node in ast.walk(ast.parse(test_of("kind", "name"))) if isinstance(node, ast.FunctionDef)
 )

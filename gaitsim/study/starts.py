@@ -16,7 +16,7 @@ class Starts:
     """Examines prepared simulators, and collects each unusual finding once."""
 
     def __init__(self, opened: Opened) -> None:
-        # A result ran as it is: it is shown, whatever one thinks of its start.
+        # A result did run, so an unusual start does not prevent showing it.
         self._refuses = not opened.manifest
         self.unusual: list[Fault] = []
 

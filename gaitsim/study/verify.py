@@ -19,7 +19,7 @@ from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.inheritance import override
 from gaitsim.spec.resolve import resolve
 
-_ENDED = ("killed", "timeout")  # what hung or killed a worker would do so again
+_ENDED = ("killed", "timeout")  # candidates that hung or killed a worker would do so again
 
 
 @dataclass(frozen=True)

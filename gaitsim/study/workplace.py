@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from gaitsim.cluster.patience import Patience
+from gaitsim.cluster.time_limits import TimeLimits
 from gaitsim.errors import Usage
 from gaitsim.optimization.search import Evaluator
 from gaitsim.results.bundle import Bundle
@@ -62,7 +62,7 @@ class Task:
 
     bundle: Bundle
     mode: Mode
-    patience: Patience = field(default_factory=Patience)
+    time_limits: TimeLimits = field(default_factory=TimeLimits)
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def _dask(place: Workplace, task: Task, say: Callable[[str], None]) -> Evaluator
     from gaitsim.cluster.parallel import Parallel
 
     client = remote_client(place.scheduler, place.scheduler_file, say)
-    return Parallel(client, task.bundle, task.mode, task.patience)
+    return Parallel(client, task.bundle, task.mode, task.time_limits)
 
 
 def _this_process(_: Workplace, task: Task, __: Callable[[str], None]) -> Evaluator:
@@ -91,10 +91,10 @@ def _processes(place: Workplace, task: Task, _: Callable[[str], None]) -> Evalua
     from gaitsim.cluster.local import Local
     from gaitsim.simulation.threads import cores
 
-    return Local(task.bundle, task.mode, place.workers or cores(), task.patience)
+    return Local(task.bundle, task.mode, place.workers or cores(), task.time_limits)
 
 
-BACKENDS = (  # the first that is asked for
+BACKENDS = (  # the first one that applies is used
     Backend(lambda place: place.cluster, _dask),
     Backend(lambda place: place.workers == 0, _this_process),
     Backend(lambda _: True, _processes),

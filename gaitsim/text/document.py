@@ -17,7 +17,7 @@ from gaitsim.text.syntax import DEPTH_LIMIT, NO_ANCHORS, ONE_DOCUMENT, TOO_DEEP,
 
 SIZE_LIMIT = 5_000_000
 
-# libyaml where PyYAML has it: a tenth of the time, the same events and the same text.
+# libyaml if PyYAML has it: it takes a tenth of the time and gives the same events and text.
 _LOADER: Any = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
 _DUMPER: Any = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 _INTEGER = re.compile(r"[-+]?(0|[1-9][0-9]*)")
@@ -192,7 +192,7 @@ class _Reader:
         if not self.lines_count:
             return Mark(self.file)
         text = self.lines[line] if line < len(self.lines) else ""
-        if column > 200:  # a frame of a very long line shows nothing
+        if column > 200:  # a frame is useless for a very long line
             text = ""
         shown = text[:240]
         if not shown.isprintable():

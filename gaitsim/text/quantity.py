@@ -23,7 +23,7 @@ _EXAMPLES = {
     "N m": "10 N m",
     "m/s^2": "9.81 m/s^2",
 }
-# Letters that people write, and what a spec has instead.
+# Letters in quantities, and what they are replaced by.
 _PLAIN = {
     "[\N{MINUS SIGN}\N{EN DASH}]": "-",
     r"(?<=\d)\s*[\N{MIDDLE DOT}\N{DOT OPERATOR}\N{MULTIPLICATION SIGN}x*]\s*10\^([-+]?\d+)": r"e\1",
@@ -166,7 +166,7 @@ def number(node: Node, unit: str, faults: Faults, address: str) -> float | None:
     """
     if not isinstance(node, ScalarNode) or isinstance(node.value, bool) or node.value is None:
         hint = comma_within(node) if isinstance(node, SequenceNode) else ""
-        faults.add(f"{said(node)} is not a number; {needed(unit)}.{hint}", node.mark, address)
+        faults.add(f"{quoted(node)} is not a number; {needed(unit)}.{hint}", node.mark, address)
         return None
     try:
         return quantity_of(node.value, unit).value
@@ -212,7 +212,7 @@ def mismatch(quantity: Quantity, declared: Unit) -> str:
     return f"{given.text} is {words}; {needed(declared.text)}."
 
 
-def said(node: Node) -> str:
+def quoted(node: Node) -> str:
     """A node as messages show it."""
     if isinstance(node, ScalarNode):
         shown = {None: "nothing", True: "true", False: "false"}

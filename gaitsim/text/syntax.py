@@ -34,7 +34,7 @@ def explained(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[str, int, 
     opener = lines[start.line][start.column : start.column + 1] if start.line < len(lines) else ""
     if letter == "\t" and not before.strip():
         return "YAML is not indented with tabs; write spaces.", *here
-    if "maximum nesting depth" in problem:  # libyaml's own limit, which it may meet before ours
+    if "maximum nesting depth" in problem:  # libyaml's own limit, which may apply before ours
         return TOO_DEEP, *here
     if "cannot start any token" in problem:
         return f"a text may not begin with {letter}; put the whole text in quotes.", *here

@@ -17,7 +17,7 @@ import psutil
 import pytest
 
 from gaitsim.cluster.local import Local
-from gaitsim.cluster.patience import Patience
+from gaitsim.cluster.time_limits import TimeLimits
 from gaitsim.results.bundle import Bundle
 
 from .candidates import CANDIDATES, CULPRIT, INNOCENT, bundle, evaluated, expected, workers
@@ -29,8 +29,8 @@ def models(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Bundle]:
 
 
 @contextmanager
-def local(model: Bundle, count: int = 2, patience: Patience | None = None) -> Iterator[Local]:
-    evaluate = Local(model, "rapid", count, patience)
+def local(model: Bundle, count: int = 2, time_limits: TimeLimits | None = None) -> Iterator[Local]:
+    evaluate = Local(model, "rapid", count, time_limits)
     try:
         yield evaluate
     finally:
@@ -78,7 +78,7 @@ def test_a_candidate_that_kills_its_workers_is_named_and_costs_no_other(models: 
 
 
 def test_a_candidate_that_hangs_is_ended_and_costs_no_other(models: dict[str, Bundle]) -> None:
-    with local(models["hangs"], patience=Patience(first=30.0, least=0.3, times=1.0)) as evaluate:
+    with local(models["hangs"], time_limits=TimeLimits(first=30.0, least=0.3, times=1.0)) as evaluate:
         evaluated(evaluate, INNOCENT)
         began = time.monotonic()
         found = evaluated(evaluate, CANDIDATES)

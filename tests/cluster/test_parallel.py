@@ -13,7 +13,7 @@ import pytest
 
 from gaitsim.cluster import connect
 from gaitsim.cluster.parallel import Parallel
-from gaitsim.cluster.patience import Patience
+from gaitsim.cluster.time_limits import TimeLimits
 from gaitsim.cluster.unreachable import ClusterError
 
 from .candidates import CANDIDATES, CULPRIT, INNOCENT, bundle, evaluated, expected
@@ -77,7 +77,7 @@ def test_a_candidate_that_kills_its_workers(tmp_path: Path, servers: Servers) ->
 @pytest.mark.parametrize("nanny", ["--nanny", "--no-nanny"])
 def test_a_candidate_that_hangs(tmp_path: Path, servers: Servers, nanny: str) -> None:
     model = bundle(tmp_path, "hangs")
-    evaluate = Parallel(remote(servers, nanny), model, "rapid", Patience(first=30.0, least=1.5, times=20.0))
+    evaluate = Parallel(remote(servers, nanny), model, "rapid", TimeLimits(first=30.0, least=1.5, times=20.0))
     evaluated(evaluate, INNOCENT)
     began = time.monotonic()
     found = evaluated(evaluate, CANDIDATES)
@@ -92,7 +92,7 @@ def test_a_candidate_that_hangs(tmp_path: Path, servers: Servers, nanny: str) ->
 @pytest.mark.slow
 def test_all_workers_gone(tmp_path: Path, servers: Servers) -> None:
     client = remote(servers, "--no-nanny")
-    evaluate = Parallel(client, bundle(tmp_path, "none"), "rapid", Patience(workers=2.0))
+    evaluate = Parallel(client, bundle(tmp_path, "none"), "rapid", TimeLimits(workers=2.0))
     evaluated(evaluate, CANDIDATES)
     for process in servers.processes[1:]:
         os.killpg(process.pid, signal.SIGKILL)

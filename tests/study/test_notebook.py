@@ -142,7 +142,7 @@ def test_what_comes_back_is_shown_in_a_line(spec: Path) -> None:
     search = gaitsim.optimize(spec, smoke=True, workers=0)
     shown = [repr(each) for each in (made, made.models[0], hunt, search, gaitsim.check(spec))]
     assert shown[:2] == ["<Runs of stone: 1 stopped, 1 completed; not kept>", "<Model stone: 4 parts, 0 tuned>"]
-    assert shown[2].startswith("<Hunt: simulate.duration holds up to 0.")
+    assert shown[2].startswith("<LimitRuns: simulate.duration holds up to 0.")
     assert "best score" in shown[3] and str(search.folder) in shown[3]
     assert all(len(each) < 200 for each in shown)
 

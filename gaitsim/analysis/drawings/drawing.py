@@ -32,7 +32,7 @@ class Drawing:
     figure: Figure = field(repr=False)
 
 
-# Gives the figures that a run's parts allow; none if it is not about such a model.
+# Makes the figures of a run; none for a model that they do not apply to.
 Figures = Callable[["Replay"], list[Drawing]]
 
 

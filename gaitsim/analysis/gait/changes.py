@@ -16,7 +16,7 @@ from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.units import parse_unit
 
-_ROUNDING = 9  # decimals; less is rounding
+_ROUNDING = 9  # decimals; smaller differences are rounding errors
 
 
 def gait_changes(replays: Sequence[Replay]) -> dict[str, dict[str, Any]]:

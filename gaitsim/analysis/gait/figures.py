@@ -16,7 +16,7 @@ from gaitsim.analysis.gait.joint_moments import joint_power, joint_work
 from gaitsim.analysis.gait.keypoints import FORWARDS, PEAKS_BY, POWERS, VERTICAL, draw_peaks, name_peaks
 from gaitsim.analysis.gait.legs import SIDES, Leg, has_two_legs, mass, on_side, two_legs
 from gaitsim.analysis.gait.muscles import activation_figures, metabolic_figures, sided_muscles
-from gaitsim.analysis.gait.panels import LINE, SPREAD, draw_cycle, draw_people, name_lines, said
+from gaitsim.analysis.gait.panels import BAND, LINE, draw_cycle, draw_people, name_lines, said
 from gaitsim.analysis.gait.pressure import pressure_figures
 from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
@@ -92,7 +92,7 @@ def _angles(replay: Replay, legs: Legs) -> list[Drawing]:
     turning = all(quantity(one.norm.unit) == "angle" for one in matched)
     title = "Joint angles over the gait cycle" if turning else "Signals over the gait cycle"
     caption = (
-        f"{', '.join(one.name for one in matched)}: {said(legs)}. {SPREAD} Dotted: take-off. "
+        f"{', '.join(one.name for one in matched)}: {said(legs)}. {BAND} Dotted: take-off. "
         f"{_people_words(matched)} Zeros of hip and ankle differ by 10 to 20 deg between laboratories. {_IN_TABLE}"
     )
     return [Drawing("gait_angles", title, caption, figure)]
@@ -117,7 +117,7 @@ def _forces(replay: Replay, legs: Legs) -> Drawing:
     above(vertical)
     caption = (
         "Force of the ground on each foot in body weights, along the ground's normal and forwards along the ground: "
-        f"{said(legs)}. {SPREAD} Dotted: take-off.{peaks} The table Gait has the peaks."
+        f"{said(legs)}. {BAND} Dotted: take-off.{peaks} The table Gait has the peaks."
     )
     return Drawing("gait_forces", "Ground reaction forces over the gait cycle", caption, figure)
 
@@ -141,7 +141,7 @@ def _moments(replay: Replay, legs: Legs) -> list[Drawing]:
         panel.set_xlabel(labelled("gait cycle", "%"))
     caption = (
         f"Net joint moments (of muscles, stops and damping) and their powers over body mass: {said(legs)}. Extension "
-        f"and plantarflexion are positive; power is positive where a joint gives work. {SPREAD} Dotted: take-off. "
+        f"and plantarflexion are positive; power is positive where a joint gives work. {BAND} Dotted: take-off. "
         f"{_people_words(matched)} Dots: peaks of their powers ({PEAKS_BY}). Work a stride: "
         f"{'; '.join(words)}. {_IN_TABLE}"
     )
@@ -221,7 +221,7 @@ def _margin(replay: Replay, legs: Legs) -> list[Drawing]:
     landed = [100 * float(np.mean(leg.over_cycle(found).rows[:, 0])) for leg in legs]
     caption = (
         "By how far the foremost point that stands is ahead of the extrapolated center of mass, x + v / sqrt(g / l) "
-        f"with l its mean height (Hof and others 2005): {said(legs)}. {SPREAD} At touchdown: "
+        f"with l its mean height (Hof and others 2005): {said(legs)}. {BAND} At touchdown: "
         f"{' and '.join(f'{leg.name} {at:.3g} cm' for leg, at in zip(legs, landed, strict=True))}. "
         "Below 0 the next step must catch the fall forwards."
     )

@@ -11,7 +11,7 @@ from gaitsim.analysis.drawings.style import FONT, above, labelled, panels
 from gaitsim.analysis.gait.comparison import runs
 from gaitsim.analysis.gait.keypoints import ON, ON_BY, draw_on
 from gaitsim.analysis.gait.legs import SIDES, Leg, mass, side_of, unsided
-from gaitsim.analysis.gait.panels import PEOPLE, SPREAD, draw_cycle, name_lines, said
+from gaitsim.analysis.gait.panels import BAND, PEOPLE, draw_cycle, name_lines, said
 from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
 
@@ -52,7 +52,7 @@ def activation_figures(replay: Replay, legs: Legs) -> list[Drawing]:
         axes[0].plot([], [], color=PEOPLE, linewidth=4, label="on in people")
     name_lines(figure, axes[0])
     on = f" Bars above: where people's muscle is above half of its range ({ON_BY})." if known else ""
-    caption = f"Activation of each muscle: {said(legs)}. {SPREAD} Dotted: take-off.{on}"
+    caption = f"Activation of each muscle: {said(legs)}. {BAND} Dotted: take-off.{on}"
     return [Drawing("gait_activations", "Muscle activations over the gait cycle", caption, figure)]
 
 
@@ -80,7 +80,7 @@ def metabolic_figures(replay: Replay, legs: Legs) -> list[Drawing]:
     panel.set_xlabel(labelled("gait cycle", "%"))
     above(panel)
     caption = (
-        f"Metabolic power of all muscles of each leg over body mass: {said(legs)}. {SPREAD} Dotted: take-off. "
+        f"Metabolic power of all muscles of each leg over body mass: {said(legs)}. {BAND} Dotted: take-off. "
         f"In the mean {' and '.join(words)}; the body's power at rest is not in it."
     )
     return [Drawing("gait_metabolics", "Metabolic power over the gait cycle", caption, figure)]

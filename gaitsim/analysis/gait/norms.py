@@ -20,7 +20,7 @@ Floats = NDArray[np.float64]
 POINTS = 101
 WALKING = "norms/fukuchi2018_walking"
 RUNNING = "norms/fukuchi2017_running"
-_LEAST_WIDTH = 0.01  # of a band, in the unit of its table: a band without width fits nothing
+_LEAST_WIDTH = 0.01  # least width of a band, in the unit of its table
 
 
 @dataclass(frozen=True)

@@ -19,8 +19,8 @@ LINE: dict[str, dict[str, Any]] = {
     "l": {"color": PALETTE[0], "linestyle": LINES[0]},
     "r": {"color": PALETTE[1], "linestyle": LINES[1]},
 }
-PEOPLE = PALETTE[2]  # not grey, which is what the bands of two legs make together
-SPREAD = "Bands of a leg's colour: one standard deviation over its strides."
+PEOPLE = PALETTE[2]  # not grey, because the bands of two legs are grey where they overlap
+BAND = "Bands of a leg's colour: one standard deviation over its strides."
 
 
 def said(legs: Sequence[Leg], until: str = "touchdown") -> str:

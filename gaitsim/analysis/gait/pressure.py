@@ -12,7 +12,7 @@ from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.drawings.style import FONT, GREY, above, labelled, panels
 from gaitsim.analysis.gait.legs import Cycle, Leg, unsided
 from gaitsim.analysis.gait.norms import POINTS
-from gaitsim.analysis.gait.panels import SPREAD, draw_band, said
+from gaitsim.analysis.gait.panels import BAND, draw_band, said
 from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
 
@@ -94,7 +94,7 @@ def pressure_figures(replay: Replay, legs: Sequence[Leg]) -> list[Drawing]:
     words = "; ".join(_words(one) for one in found)
     caption = (
         "Center of pressure of each foot, forwards from its heel's print along the ground: "
-        f"{said(legs, until='take-off')}. {SPREAD} Dotted: the foot's hindmost contact "
+        f"{said(legs, until='take-off')}. {BAND} Dotted: the foot's hindmost contact "
         f"({_named(found, 'heel')}) and its foremost one ({_named(found, 'front')}), a foot length apart. "
         f"Mean: {words}."
     )

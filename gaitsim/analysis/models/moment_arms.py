@@ -18,7 +18,7 @@ def warnings(arms: Sequence[MomentArm]) -> list[Fault]:
     for arm in arms:
         low, high = np.degrees(arm.angles[[0, -1]])
         over = f"{low:.0f} to {high:.0f} deg" + ("" if arm.limited else ", as the hinge has no limits")
-        # An arm that is a function of the angle is meant to be what it is beyond a joint's own range.
+        # A moment arm that is a function of the angle is valid beyond the range of the joint.
         if arm.turns and arm.alone and (arm.points or arm.limited):
             places = _degrees(arm.turns)
             rule = f"the moment arm over {arm.hinge.address} changes sign at {places} (range: {over})"
@@ -30,8 +30,8 @@ def warnings(arms: Sequence[MomentArm]) -> list[Fault]:
     return found
 
 
-# What people call it when the child, hanging from its joint, turns backwards, and when it turns forwards.
-# Out of the sagittal plane: when the angle grows, and when it falls.
+# The name of the motion in which a hanging child turns backwards, and of that in which it turns forwards.
+# Out of the sagittal plane: the name for an increasing angle, and for a decreasing one.
 _ACROSS = {"hip_adduction": ("adducts", "abducts"), "hip_rotation": ("rotates inwards", "rotates outwards")}
 _HIP = ("extends", "flexes")
 _SENSES = {"hip": _HIP, "hip_flexion": _HIP, "knee": ("flexes", "extends"), "ankle": ("plantarflexes", "dorsiflexes")}
@@ -47,7 +47,7 @@ def said(arm: MomentArm) -> str:
         ways = _ACROSS.get(_bare(arm.hinge.address), ("turns", "turns back"))
         return f"{arm.muscle} {ways[0 if arm.initial > 0 else 1]} {arm.hinge.address}"
     back = (arm.initial > 0) == arm.backwards
-    # A child that is fastened by its far end is the segment above the joint.
+    # A child that is fastened by its distal end is the segment above the joint.
     frame = arm.hinge.attachments["child"].rpartition(".")[2]
     sense = _SENSES.get(_bare(arm.hinge.address))
     does = sense[0 if back != (frame == "distal") else 1] if sense else "turns"

@@ -17,9 +17,9 @@ from gaitsim.analysis.replays.replay import Replay
 from gaitsim.model import Part
 from gaitsim.units import parse_unit
 
-_CYCLES = 6  # more cannot be told apart
-_LEAST = 1e-9  # J; less is not worth a colour
-_SHOWN = 6  # more names leave no room for the curves
+_CYCLES = 6  # more lines cannot be distinguished
+_LEAST = 1e-9  # J; smaller energies get no colour of their own
+_SHOWN = 6  # a longer legend leaves no room for the curves
 CREATED = "created at paths"
 
 

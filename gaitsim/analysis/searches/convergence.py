@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _ROW = 0.5  # inches a tuned number
-_LABEL_SPACE = 1.25  # of the span of scores that matters, above it
+_LABEL_SPACE = 1.25  # margin above the scores, as a share of their range
 
 
 @dataclass(frozen=True)

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 Floats = NDArray[np.float64]
-PROMINENCE = 0.05  # of the signal's range: smaller rises are no event
+PROMINENCE = 0.05  # share of the signal's range; smaller rises are not events
 _SETTLED = 1e-3  # of the events' size
-_CLEAR = 5e-5  # of the events' size: a maximum is known to a time step only
+_CLEAR = 5e-5  # relative to the events; a maximum is known to within one step only
 
 
 @dataclass(frozen=True)
@@ -90,7 +90,7 @@ def fixed_point(events: Floats) -> FixedPoint | None:
     last = float(after[-1] - now[-1])
     if abs(last) < _SETTLED * scale:
         slope = _approach(events, scale)
-        # Aitken: what is still to come, if every step goes on to shrink as the last ones did.
+        # Aitken's extrapolation: the remaining change if the steps continue to shrink at the same rate.
         rest = last * slope / (1 - slope) if slope is not None and abs(slope) < 1 else 0.0
         return FixedPoint(float(after[-1]) + rest, slope)
     order = np.argsort(now)

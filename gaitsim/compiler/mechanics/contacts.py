@@ -54,7 +54,7 @@ class Contacts(Sensors):
             mass=0,
             contype=0,
             conaffinity=1,
-            priority=1,  # its numbers hold, not a mean of them with the ground's
+            priority=1,  # its parameters apply, not the mean of them and the ground's
             friction=[float(friction), 0.005, 0.0001],
             solref=[float(v) for v in solref],
             solimp=[float(v) for v in solimp],

@@ -33,7 +33,7 @@ def add_ground(spec: Any, angle: float, across: float, edges: Sequence[tuple[flo
     Raises:
         ValueError: There is another ground already.
     """
-    # At an edge without a height a sphere would touch two boxes, and so be held twice.
+    # At an edge without a height, a sphere would touch two boxes and get twice the force.
     level = all(height == 0 for _, height in edges)
     wanted = [_plane(angle, across)] if level else _treads(angle, edges)
     present = [geom for geom in spec.worldbody.geoms if geom.name.startswith(GROUND)]
@@ -67,7 +67,7 @@ def _treads(angle: float, edges: Sequence[tuple[float, float]]) -> list[dict[str
 
 
 def _tilt(angle: float, across: float = 0.0) -> list[float]:
-    # About y, which points to the left, a positive turn would lower what is in front.
+    # A positive rotation about y, which points to the left, lowers the front.
     forwards = [math.cos(angle / 2), 0.0, -math.sin(angle / 2), 0.0]
     if across == 0:
         return forwards

@@ -41,7 +41,7 @@ class Joints(Making):
             armature: Inertia of this coordinate alone in kg m^2, such as that of a motor's rotor.
         """
         x, y, z = (float(v) for v in axis)
-        # An axis is a pseudovector: mirrored in y, its x and z turn round and its y stays.
+        # An axis is a pseudovector: a mirror image in y reverses its x and z and keeps its y.
         turned = (-x, y, -z) if self.part.mirrored else (x, y, z)
         joint = self._joint(mujoco.mjtJoint.mjJNT_HINGE, turned, suffix, damping)
         made = self.spec.joint(joint.name)

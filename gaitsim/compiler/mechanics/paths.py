@@ -63,7 +63,7 @@ class Paths(Making):
             solimp=[float(impedance), float(impedance), 0.001, 0.5, 2],
             info=self._info,
         )
-        # MuJoCo counts from the lengths in the posture where all coordinates are 0.
+        # MuJoCo measures from the lengths at which all coordinates are 0.
         ahead = self._length_at_zero(second) - self._length_at_zero(first)
         equality.data[:5] = [ahead, 1, 0, 0, 0]
 

@@ -11,7 +11,7 @@ from gaitsim.compiler.mechanics.making import Made
 from gaitsim.errors import Faults
 from gaitsim.model import Model
 
-_STRAIGHT = 1e-6  # of an axis of length 1, out of the plane or out of the way across it
+_STRAIGHT = 1e-6  # deviation of a unit axis from the sagittal plane, or from the normal of that plane
 
 
 def check_friction(model: Model, spec: Any, made: Made) -> None:

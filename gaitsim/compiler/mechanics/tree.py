@@ -12,7 +12,7 @@ import numpy as np
 from gaitsim.errors import Fault, Faults, InvalidSpec
 from gaitsim.model import WORLD, Model, Part
 
-_FLAT = 0.02  # of three unit axes: a volume below it, as of axes 1 deg from one plane, is none
+_FLAT = 0.02  # volume of three unit axes below which they are dependent, such as axes within 1 deg of one plane
 
 
 @dataclass(frozen=True)

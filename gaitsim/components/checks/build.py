@@ -8,7 +8,7 @@ from collections.abc import Iterator, Mapping
 from gaitsim.component import Attachment, Declaration, Frame, Input, Output
 from gaitsim.errors import did_you_mean
 
-# How many of a verb's leading arguments name something declared, and as what.
+# The number of leading arguments of a verb that name declarations, and their classes.
 VERBS: Mapping[str, tuple[int, tuple[type, ...], str]] = {
     "frame": (1, (Frame,), "frame"),
     "attached": (1, (Attachment,), "attachment"),

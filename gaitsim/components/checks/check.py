@@ -38,13 +38,13 @@ SIGNATURES: Mapping[str, tuple[str, ...]] = {
     "finish": ("p", "x", "m"),
     "build": ("p", "mj"),
 }
-GUARD = "guard"  # the output that tells of events
+GUARD = "guard"  # the output whose rise through 0 is an event
 _LETTERS = {"p": Parameter, "u": Input, "x": State, "y": Output, "m": Metric}
 _SAID = {Parameter: "a parameter", Input: "an input", State: "a state", Output: "an output"}
 _SAID |= {Metric: "a metric", Points: "a list of points", Option: "an option", Series: "a series"}
 _READ_ONLY = {"p": "parameters are read only.", "u": "inputs are read only."}
 _WRITERS = {"x": ("start", "update", "reset"), "y": ("output",), "m": ("finish",)}
-# numba compiles these; breakpoint only runs in plain Python, which is what it is for.
+# numba compiles these; breakpoint is for plain Python only.
 _BUILTINS = {"abs", "min", "max", "range", "int", "float", "len", "bool", "round", "print"}
 _BUILTINS |= {"breakpoint", "ValueError", "ArithmeticError", "OverflowError", "RuntimeError"}
 
@@ -177,7 +177,7 @@ def check_names(
     check.declared()
     for name, function in check.functions.items():
         if not check.signature(name, function):
-            continue  # its names mean nothing until its arguments do
+            continue  # its names are checked once its arguments are correct
         check.attributes(name, function)
         check.names(function, plain=name == "build")
         for message, wrong in build_faults(function, declarations) if name == "build" else ():
@@ -337,7 +337,7 @@ class _Check:
                 if _passed_whole(function, letter):
                     continue
                 written = {node.attr for node in _written(function)}
-                # A misspelt output has been told of; it is the one that is missing.
+                # A misspelt output was reported already; it is the one that is missing.
                 names -= written | {near for word in written - set(self.known) if (near := nearest(word, names))}
             for missing in sorted(names):
                 also = ", and build never reads it" if kind is Output and "build" in self.functions else ""
@@ -356,7 +356,7 @@ def _listed(words: Sequence[str]) -> str:
 
 
 def _hint(word: str, names: list[str], prefix: str) -> str:
-    # The prefix is alike in all of them: only the names are compared.
+    # All have the same prefix, so only the names are compared.
     near = did_you_mean(word, names)
     if near.startswith("Did you mean "):
         return near.replace("Did you mean ", f"Did you mean {prefix}.")

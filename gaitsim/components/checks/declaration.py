@@ -47,7 +47,7 @@ def _numbers(value: Any) -> bool:
     return isinstance(value, tuple) and bool(value) and all(map(_number, value))
 
 
-# Of each field: what it may be, and how that is said.
+# For each field: a test of its value, and the words for what is allowed.
 _FIELDS: dict[str, tuple[Any, str]] = {
     "unit": (lambda v: isinstance(v, str), 'a unit in quotes, such as "N m"'),
     "doc": (lambda v: isinstance(v, str), "a text in quotes"),

@@ -98,7 +98,7 @@ class _Flow:
         elif isinstance(target, ast.Subscript):
             self.write(target.value, carried | self.read(target.slice))
         elif isinstance(target, ast.Attribute):
-            # Whatever the name before the dot, it may be an alias of y.
+            # Any name before the dot may be an alias of y.
             self.grow(f"y.{target.attr}", carried)
         elif isinstance(target, ast.Name):
             self.grow(target.id, carried)
@@ -141,7 +141,7 @@ class _Flow:
                 self.block(node.body, control)
                 self.left = left
             case ast.Try() | ast.With() | ast.Match():
-                # No component needs these; they are taken as one condition over all they hold.
+                # No component needs these; they count as one condition over all that they contain.
                 carried = control | self.read(node)
                 for inner in ast.walk(node):
                     if isinstance(inner, ast.stmt) and inner is not node:
@@ -167,7 +167,7 @@ class _Flow:
 
     def loop(self, node: ast.For | ast.While, control: Carried) -> None:
         outer = self.turned
-        # Twice: an exit at the end of the body decides on the body's next turn.
+        # Twice, because an exit at the end of the body decides about its next iteration.
         self.block(node.body, control)
         self.block(node.body, control)
         self.block(node.orelse, control)

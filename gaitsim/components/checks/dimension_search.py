@@ -14,7 +14,7 @@ from gaitsim.components.checks.check import place
 from gaitsim.errors import Faults, Mark
 from gaitsim.units import Dimension, Unit
 
-_DECISIONS = 40  # on one path; only a loop that counts in plain numbers comes near
+_DECISIONS = 40  # on one path; only a loop over plain numbers comes near
 _PATHS = 2000  # of one function
 _STATEMENTS = 50_000  # of one function, over all its paths
 _RAISE = dis.opmap["RAISE_VARARGS"]
@@ -259,7 +259,7 @@ class Search:
         return Number(self, found[0] if found and keeps else self.dimensions.plain)
 
     def combine(self, sign: str, left: Any, right: Any) -> Any:
-        if self.dimension(left) is None:  # nothing times a force still fits any dimension
+        if self.dimension(left) is None:  # 0 times a force still fits any dimension
             self.dimension(right)
             return left
         if sign == "*" and self.dimension(right) is None:

@@ -10,7 +10,7 @@ from gaitsim.components.checks.shared import imports_shared
 
 FORBIDDEN = {"open", "exec", "eval", "compile", "input", "getattr", "setattr", "delattr", "vars", "globals", "locals"}
 FORBIDDEN |= {"dir", "type", "object", "super", "memoryview", "help"}
-# Attributes that lead from a generator, a function or an array to other code, or to files.
+# Attributes through which a generator, a function or an array gives access to other code or to files.
 _INSIDES = {"gi_frame", "gi_code", "f_back", "f_builtins", "f_globals", "f_locals", "tb_frame", "tb_next", "ctypes"}
 _INSIDES |= {"tofile", "dump", "with_traceback", "mro"}
 
@@ -43,7 +43,7 @@ def _forbidden(node: ast.AST) -> str:
         return ""
     for value in (value for _, value in ast.iter_fields(node)):
         for word in value if isinstance(value, list) else (value,):
-            # Strings of the syntax tree are names, but for those of constants.
+            # Strings in the syntax tree are names, except those of constants.
             if isinstance(word, str) and word.startswith("__") and not isinstance(node, ast.Constant):
                 return word
     return ""

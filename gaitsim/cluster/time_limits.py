@@ -10,7 +10,7 @@ Found = tuple[Evaluation, float, str]  # with its seconds, and the host
 
 
 @dataclass(frozen=True)
-class Patience:
+class TimeLimits:
     """Time limits in seconds. They are long, because no score may depend on the speed of a machine."""
 
     first: float = 3600.0  # for a candidate, while none is known
@@ -23,7 +23,7 @@ class Patience:
 class Pace:
     """The running mean of the time of one evaluation."""
 
-    patience: Patience
+    time_limits: TimeLimits
     mean: float | None = None
 
     def learn(self, seconds: float) -> None:
@@ -32,7 +32,8 @@ class Pace:
     @property
     def limit(self) -> float:
         """The time limit of one candidate, in s."""
-        return self.patience.first if self.mean is None else self.patience.least + self.patience.times * self.mean
+        limits = self.time_limits
+        return limits.first if self.mean is None else limits.least + limits.times * self.mean
 
     def fitting(self, seconds: float) -> int:
         """The number of evaluations that fit into a time in s; 0 while the mean is unknown."""
