@@ -190,6 +190,8 @@ def small(words: list[str]) -> list[str]:
             short = [] if {"--smoke", "--resume"} & set(words) else ["--generations", "1", "--population", "4"]
             brief = ["--set", "simulate.duration=0.1 s"] if "normal" in words else []
             return words + short + brief + ([] if "--workers" in words else ["--workers", "0"])
+        case "cohort" if "--resume" not in words:
+            return [*words, "--set", "simulate.duration=0.2 s"]
         case "limit":
             return [*words, "--points", "3", "--tolerance", "0.5"]
     return words
