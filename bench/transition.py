@@ -32,7 +32,7 @@ HANDED = {
 
 def run(spec: str, *settings: str) -> tuple[Outcome, Trajectory]:
     """A recorded run of a spec with settings such as `simulate.duration=7 s`."""
-    outcome = Simulator(Opening(SPECS / spec, settings).source().model()).run(recorded=True)
+    outcome = Simulator(Opening(SPECS / spec, settings).open().model()).run(recorded=True)
     assert outcome.trajectory is not None
     return outcome, outcome.trajectory
 
