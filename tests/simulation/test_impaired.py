@@ -1,4 +1,4 @@
-"""The impaired walkers at their tuned values: all walk for the 10 s for which they were tuned."""
+"""The impaired walkers at their tuned values: all walk for the 10 or 20 s for which they were tuned."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from .models import ROOT
 SLOWER = {
     "weak_plantarflexors": 0.9,
     "plantarflexor_contracture": 1.14,
-    "weak_hips": 0.96,
-    "calf_hyperreflexia": 1.24,
+    "weak_hips": 0.81,
+    "calf_hyperreflexia": 1.2,
     "on_heels": 0.71,
-    "spastic_quadriceps": 0.9,
+    "spastic_quadriceps": 1.08,
 }
 
 
 @pytest.mark.parametrize("cause", SLOWER)
 def test_each_walks_and_more_slowly_than_the_healthy_one(cause: str) -> None:
     found = Simulator(Opening(ROOT / "specs" / f"walking_{cause}.yaml").open().model()).run()
-    assert found.metrics["fall_time"] == pytest.approx(10) and found.metrics["fall_time.fell"] == 0
+    assert found.status == "completed" and found.metrics["fall_time.fell"] == 0
     assert found.metrics["speed"] == pytest.approx(SLOWER[cause], abs=0.05)
 
 
