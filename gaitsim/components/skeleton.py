@@ -28,7 +28,7 @@ COMPONENT = LIBRARY.find("{reference}")
 
 
 def trial() -> Trial:
-    """The component with every number at 0.5; put the numbers of your paper here, and test what it says of them."""
+    """The component with every number at 0.5. Replace these by the numbers of your paper, and test its results."""
     made = Trial(COMPONENT)
     for numbers in made.arrays:
         numbers[:] = 0.5

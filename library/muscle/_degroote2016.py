@@ -3,7 +3,8 @@
 import math
 
 LEAST, MOST = math.exp(0.2 * 4 / 0.6), math.exp(1.6 * 4 / 0.6)  # passive elasticity at its ends
-# The paper's digits are rounded; OpenSim's are not: f_l is 1 at 1, and f_v is 0 at -1 and 1 at 0.
+# Dimensionless. The digits of degroote2016 are rounded; those of OpenSim's DeGrooteFregly2016Muscle are not: f_l is 1
+# at 1, and f_v is 0 at -1 and 1 at 0.
 FIRST = (0.8150671134243542, 1.055033428970575, 0.162384573599574, 0.063303448465465)
 SECOND = (0.433004984392647, 0.716775413397760, -0.029947116970696, 0.200356847296188)
 THIRD = (0.1, 1.0, 0.353553390593274, 0.0)

@@ -4,6 +4,7 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, 
 
 from ._hill import METABOLICS, PATH_LENGTH, PENNATE_PATH, PENNATION_ANGLE, STEP_MEASURE, look_ahead
 
+# Dimensionless defaults of OpenSim's Millard2012EquilibriumMuscle (millard2013).
 PASSIVE_STRAIN = 0.7  # of the fiber at F_max
 TOE_END = 1 - (1 - 2 / 3) / 1.375  # where the tendon becomes linear, in strains at F_max
 GAUSS = (  # nodes and weights on [0, 1]; five integrate polynomials of degree nine exactly
