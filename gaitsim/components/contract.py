@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 from gaitsim.components.checks.check import declaration_marks, parse
 from gaitsim.components.composite import ComponentFile, Composite
 from gaitsim.errors import Fault, Faults, Mark
@@ -41,6 +43,7 @@ def kind_faults(component: ComponentFile, contract: str, file: str, named: str) 
     return faults
 
 
+@cache  # a kind has many components
 def read_contract(text: str, named: str) -> dict[str, dict[str, str]]:
     """Read what a kind.yaml requires.
 

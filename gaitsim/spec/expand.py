@@ -316,18 +316,23 @@ class Expansion:
 
     def _slot_fault(self, name: str, slot: InnerPart, own: Node, where: Where) -> tuple[str, Mark]:
         """The fault of the entry of an inner part, and its place; empty if the entry can be expanded."""
-        sample = f"{name}: {{use: {next(iter(self.library.references(slot.kind)), f'{slot.kind}/...')}, ...}}"
         if not isinstance(own, MappingNode):
-            return f"{name} is a part of its own; write {sample}.", own.mark
+            return f"{name} is a part of its own; write {self._sample(name, slot)}.", own.mark
         use = own.entries.get("use")
         if use is None:
-            missing = f"needs {name} ({slot.doc.rstrip('.')}); write {sample}."
-            return ("" if slot.default else missing), where.mark
+            if slot.default:
+                return "", where.mark
+            return f"needs {name} ({slot.doc.rstrip('.')}); write {self._sample(name, slot)}.", where.mark
         reference = use.value if isinstance(use, ScalarNode) else None
         kind = reference.split("/")[0] if isinstance(reference, str) else slot.kind
         if kind != slot.kind and kind in self.library.kinds():
-            return f"{name} is {with_article(slot.kind)}, and {reference} is none; write {sample}.", use.mark
+            rule = f"{name} is {with_article(slot.kind)}, and {reference} is none"
+            return f"{rule}; write {self._sample(name, slot)}.", use.mark
         return "", own.mark
+
+    def _sample(self, name: str, slot: InnerPart) -> str:
+        """The entry of an inner part with a component that fits."""
+        return f"{name}: {{use: {next(iter(self.library.references(slot.kind)), f'{slot.kind}/...')}, ...}}"
 
 
 def _needs(name: str, declared: Parameter) -> str:

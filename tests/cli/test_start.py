@@ -10,8 +10,11 @@ import pytest
 import typer.main
 
 from gaitsim.cli.main import app, program_for
-from gaitsim.study import source
-from gaitsim.text.document import Mapping
+from gaitsim.components import contract
+from gaitsim.components.find import Library
+from gaitsim.study import opened
+from gaitsim.study.opening import Opening
+from gaitsim.text.document import MappingNode, parse
 
 from .commands import gaitsim
 
@@ -51,13 +54,29 @@ def test_all_commands_are_built_if_none_is_called(words: list[str]) -> None:
 
 
 def test_a_tuned_spec_is_resolved_once(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
-    names, resolve = [], source.resolve
+    names, resolve = [], opened.resolve
 
-    def counted(document: Mapping, library: object, name: str) -> object:
+    def counted(document: MappingNode, library: object, name: str) -> object:
         names.append(name)
         return resolve(document, library, name)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(source, "resolve", counted)
+    monkeypatch.setattr(opened, "resolve", counted)
     spec = str(SPECS / "walking_geyer2010.yaml")
     assert gaitsim(capsys, "run", spec, "--set", "simulate.duration=10 ms", "--no-save").code == 0
     assert names == ["walking_geyer2010"]
+
+
+def test_no_folder_is_listed_and_each_kind_is_read_once_for_a_spec_without_faults(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    kinds: list[str] = []
+
+    def parsed(text: str, name: str) -> MappingNode:
+        kinds.append(name)
+        return parse(text, name)
+
+    contract.read_contract.cache_clear()
+    monkeypatch.setattr(contract, "parse_document", parsed)
+    monkeypatch.setattr(Library, "references", None)
+    assert Opening(SPECS / "walking_geyer2010.yaml").open().model().parts
+    assert kinds and len(kinds) == len(set(kinds))
