@@ -61,7 +61,7 @@ def spec_schema(library: Library) -> dict[str, Any]:
             definitions[reference] = _entry(library.find(reference))
         except GaitsimError:
             continue
-        same = {"properties": {"use": {"const": reference}}, "required": ["use"]}
+        same = {"type": "object", "properties": {"use": {"const": reference}}, "required": ["use"]}
         cases.append({"if": same, "then": {"$ref": f"#/$defs/{reference.replace('/', '~1')}"}})
     known = sorted(name for name in definitions if "/" in name)
     entry = {"type": ["object", "null"], "properties": {"use": {"enum": known}}, "allOf": cases}
