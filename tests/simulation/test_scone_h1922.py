@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from gaitsim.simulation.run import Simulator
+from gaitsim.study.opening import Opening
 
 from .models import ROOT, model
 
@@ -53,3 +54,12 @@ def test_knees_and_ankles_yield_to_the_side_as_much_as_their_stops_let_them() ->
         angle = found[f"leg_r.{joint}.angle"]
         assert np.radians(0.5) < np.max(np.abs(angle)) < np.radians(10)
         assert found[f"leg_r.{joint}.stop_moment"] == pytest.approx(-500 * angle, abs=1e-9)
+
+
+def test_the_tuned_values_walk() -> None:
+    found = Simulator(Opening(SPEC).open().model()).run()
+    assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
+    assert found.metrics["fall_time.fell"] == 0 and 1.0 < found.metrics["speed"] < 1.5
+    assert 0.56 < found.metrics["stance_fraction"] < 0.66
+    assert 0.07 < found.metrics["step_width"] < 0.18
+    assert found.metrics["correlation_hip"] > 0.9 and found.metrics["correlation_knee"] > 0.9
