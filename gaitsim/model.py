@@ -315,6 +315,13 @@ def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> di
     """The unit of every metric.
 
     A metric with the unit `*` has the unit of the measured signal, or of the series that it is declared like.
+
+    Args:
+        parts: The parts of the model.
+        connections: Its connections, which lead from the measured signals to the measures.
+
+    Returns:
+        Units by the name of the metric in the outcome.
     """
     units = {f"{p.address}.{n}": o.unit for p in parts for n, o in p.type.outputs.items()}
     measured = {

@@ -194,7 +194,12 @@ _FIRST = {
 
 
 def tie_place(model: Any, tie: Tie) -> int:
-    """The index of a tied number in its array of MuJoCo's data."""
+    """The index of a tied number in its array of MuJoCo's data.
+
+    Args:
+        model: MuJoCo's compiled model.
+        tie: The tie.
+    """
     if tie.element is None:
         return tie.index
     element = mujoco.mj_name2id(model, _KINDS[tie.element.kind], tie.element.name)

@@ -120,7 +120,15 @@ def _told_apart(sections: dict[str, MappingNode], faults: Faults) -> None:
 
 
 def declared_parameters(section: MappingNode, faults: Faults) -> tuple[dict[str, Parameter], dict[str, Node]]:
-    """The declared parameters, and the nodes of their defaults."""
+    """Read the section `parameters:`.
+
+    Args:
+        section: The section.
+        faults: Receives the faults.
+
+    Returns:
+        The declarations, and the nodes of their defaults, by name.
+    """
     parameters: dict[str, Parameter] = {}
     defaults: dict[str, Node] = {}
     for name, node in section.entries.items():

@@ -40,8 +40,13 @@ def shipped_specs() -> dict[str, Path]:
 
 
 def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path, ...]:
-    """The search path of a spec, nearest first. Of the folders above it, only a marked project and a marked lab
-    count.
+    """The search path of a spec, nearest first.
+
+    Of the folders above the spec, only a marked project and a marked lab count.
+
+    Args:
+        spec: The spec; None for the shipped library only.
+        extra: Folders of more components.
     """
     beside = (spec or Path.cwd() / "x").absolute().parent
     project, lab = project_of(beside), lab_of(beside)
@@ -268,5 +273,11 @@ def shown(path: Path) -> str:
 
 
 def faults_at(mark: Mark, address: str, error: GaitsimError) -> list[Fault]:
-    """Faults of an error. Those without a place get the place where the spec uses the component."""
+    """The faults of an error, with places.
+
+    Args:
+        mark: The place where the spec uses the component; for faults without a place.
+        address: The address of the part.
+        error: The error.
+    """
     return [f if f.mark else Fault(f.message, mark, address) for f in error.faults]

@@ -144,7 +144,14 @@ def function_of(cls: type[Component], name: str) -> Callable[..., Any]:
 
 
 def raised(component: Primitive, function: str, address: str, error: Exception) -> Fault:
-    """The fault for an exception that a component's function raised, at the line where it did."""
+    """The fault for an exception that a component's function raised, at the line where it did.
+
+    Args:
+        component: The component.
+        function: The name of the function.
+        address: The address of the part.
+        error: The exception.
+    """
     said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     hint = "" if said.endswith("?") else "; correct this line."
     if isinstance(error, AttributeError) and error.name and error.obj is not None:

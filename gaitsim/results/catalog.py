@@ -83,7 +83,13 @@ class Filter:
 
 
 def listed(root: Path, wanted: Filter, order: str) -> list[dict[str, Any]]:
-    """The accepted results in a folder, in an order of `ORDERS`. Results that are being created are left out."""
+    """The results in a folder. Results that are being created are left out.
+
+    Args:
+        root: The folder.
+        wanted: The filter.
+        order: A key of `ORDERS`.
+    """
     folders = [path.parent for path in sorted(root.glob("*/manifest.json")) if path.parent.suffix != PARTIAL]
     return sorted((row for row in map(_row, folders) if wanted.keeps(row)), key=ORDERS[order])
 

@@ -37,7 +37,12 @@ class Copy:
 
 
 def copies(bundle: Bundle, folders: Sequence[Path]) -> list[Copy]:
-    """Compare the component files of a bundle with those in folders; the first folder with such a file counts."""
+    """Compare the component files of a bundle with those in folders.
+
+    Args:
+        bundle: The bundle of a result.
+        folders: Folders of components; the first one with a file of the same name counts.
+    """
     strange = set(unknown_components(bundle))
     found = []
     for path, text in sorted(bundle.files.items()):

@@ -52,7 +52,15 @@ KINDS = {  # the kind of change: its name in counts
 
 
 def model_changes(first: Model, second: Model) -> list[Change]:
-    """The differences of two models, in the order of `KINDS`. For a part that only one has, only that is listed."""
+    """The differences of two models. For a part that only one of them has, only that is listed.
+
+    Args:
+        first: One model.
+        second: The other.
+
+    Returns:
+        The differences in the order of `KINDS`.
+    """
     uses = [{row["address"]: row["use"] for row in part_rows(model)} for model in (first, second)]
     alone = uses[0].keys() ^ uses[1].keys()
     found = [
@@ -68,8 +76,14 @@ def model_changes(first: Model, second: Model) -> list[Change]:
 
 
 def code_changes(first: Bundle, second: Bundle) -> list[Change]:
-    """Component files of the same name with different texts: their digests, and the number of added and removed
-    lines.
+    """Find component files of the same name with different texts.
+
+    Args:
+        first: The bundle of one model.
+        second: That of the other.
+
+    Returns:
+        Their digests, and the number of added and removed lines.
     """
     found = []
     for path, text in sorted(first.files.items()):
@@ -85,8 +99,11 @@ def code_changes(first: Bundle, second: Bundle) -> list[Change]:
 
 
 def making_changes(first: Mapping[str, Any], second: Mapping[str, Any]) -> list[Change]:
-    """The differences of two manifests: settings of the searches, if both are searches, and versions. Specs have
-    none.
+    """The differences of two manifests: versions, and settings of the searches if both are searches.
+
+    Args:
+        first: The manifest of one result; empty for a spec.
+        second: That of the other.
     """
     if not (first and second):
         return []

@@ -88,7 +88,12 @@ def finish(folder: Path, manifest: dict[str, Any], headline: Sequence[str]) -> N
 
 
 def row_data(settings: Mapping[str, str], outcome: Outcome) -> dict[str, Any]:
-    """One run as plain data. Numbers that are not finite become null."""
+    """One run as plain data.
+
+    Args:
+        settings: The settings of the run, as text by address.
+        outcome: Its outcome. Numbers that are not finite become null.
+    """
     return {
         "settings": dict(settings),
         "status": outcome.status,

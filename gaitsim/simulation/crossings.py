@@ -58,7 +58,12 @@ class Crossing:
 
 
 def crossings(model: Model, assembly: Assembly) -> list[Crossing]:
-    """Find the muscle paths whose moment acts on a hinge. Other paths, such as those of massless legs, are left out."""
+    """Find the muscle paths whose moment acts on a hinge. Other paths, such as those of massless legs, are left out.
+
+    Args:
+        model: The model.
+        assembly: Its mechanics.
+    """
     return list(_Finder(model, assembly).found())
 
 

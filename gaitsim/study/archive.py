@@ -158,7 +158,15 @@ def archived(words: Sequence[str], folders: Sequence[Path] = ()) -> list[Archive
 
 
 def recorded(specs: Sequence[Archived], listener: Listener) -> Iterator[Recording]:
-    """Run specs three times each and write their records. A spec that fails does not stop the others."""
+    """Run specs three times each and write their records.
+
+    Args:
+        specs: The specs.
+        listener: Receives progress.
+
+    Yields:
+        What became of each record. A spec that fails does not stop the others.
+    """
     for spec, found in _run(specs, (0.0, _NUDGE, -_NUDGE), listener):
         path = record_path(spec.path)
         try:
@@ -168,7 +176,15 @@ def recorded(specs: Sequence[Archived], listener: Listener) -> Iterator[Recordin
 
 
 def checked(specs: Sequence[Archived], listener: Listener) -> Iterator[Verdict]:
-    """Run specs again and compare with their records. A spec that fails does not stop the others."""
+    """Run specs again and compare with their records.
+
+    Args:
+        specs: The specs.
+        listener: Receives progress.
+
+    Yields:
+        The verdict of each spec. One that fails does not stop the others.
+    """
     known: dict[Path, Recorded] = {}
     wrong: dict[Path, GaitsimError] = {}
     for spec in specs:

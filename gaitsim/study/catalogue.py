@@ -50,7 +50,15 @@ class Entry:
 
 
 def entries(specs: Sequence[Archived], listener: Listener) -> Iterator[Entry]:
-    """The entries of specs. Nothing is run. A spec that cannot be read is reported to the listener."""
+    """The entries of specs, without running them.
+
+    Args:
+        specs: The specs.
+        listener: Receives the error of a spec that cannot be read.
+
+    Yields:
+        One entry for each readable spec.
+    """
     for spec in specs:
         try:
             yield _entry(spec)

@@ -111,7 +111,16 @@ def using_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[Us
 
 
 def using_results(reference: str, scope: Scope, listener: Listener) -> Iterator[UsingResult]:
-    """The results with a copy of a component or a table, oldest first. A damaged one is reported to the listener."""
+    """Find the results with a copy of a component or a table.
+
+    Args:
+        reference: The component, such as muscle/geyer2003.
+        scope: Where results are searched for.
+        listener: Receives the error of a damaged result.
+
+    Yields:
+        The results, oldest first.
+    """
     found = []
     for manifest_file in [path for root in scope.results for path in sorted(root.glob("*/manifest.json"))]:
         folder = manifest_file.parent

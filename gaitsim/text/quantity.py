@@ -188,13 +188,28 @@ def written_unit(node: Node | None) -> Unit | None:
 
 
 def number_with_unit(node: Node, unit: str, faults: Faults, address: str) -> float | None:
-    """The value of a scalar node in the declared unit; otherwise like `number`."""
+    """The value of a scalar node in the declared unit; otherwise like `number`.
+
+    Args:
+        node: The node.
+        unit: The declared unit.
+        faults: Receives a fault if the node is not such a number.
+        address: The address that the fault belongs to.
+    """
     value = number(node, unit, faults, address)
     return None if value is None else parse_unit(unit).of(value)
 
 
 def mismatch(quantity: Quantity, declared: Unit) -> str:
-    """The message for a quantity that is not finite or has the wrong unit; empty if it fits."""
+    """The message for a quantity that does not fit a declaration.
+
+    Args:
+        quantity: The quantity.
+        declared: The declared unit.
+
+    Returns:
+        The message; empty if the quantity is finite and its unit fits.
+    """
     given = quantity.unit
     if not math.isfinite(quantity.value):
         return "this number is too large; write one below 1.8e308."

@@ -18,7 +18,13 @@ if TYPE_CHECKING:
 
 
 def draw(graphs: Sequence[Graph], file: Path, title: str) -> None:
-    """Write a PNG with all graphs, two panels in a row, with angles in degrees."""
+    """Write a PNG with all graphs, two panels in a row, with angles in degrees.
+
+    Args:
+        graphs: The graphs.
+        file: The PNG.
+        title: The title of the figure.
+    """
     columns = min(2, len(graphs))
     rows = -(-len(graphs) // columns)
     figure, axes = panels(rows, columns, height=2.9)

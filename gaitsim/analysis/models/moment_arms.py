@@ -71,7 +71,13 @@ def _bare(address: str) -> str:
 
 
 def draw(arms: Sequence[MomentArm], file: Path, title: str) -> None:
-    """Write a PNG with one panel for each hinge: moment arms in cm over the angle in degrees."""
+    """Write a PNG with one panel for each hinge: moment arms in cm over the angle in degrees.
+
+    Args:
+        arms: The moment arms.
+        file: The PNG.
+        title: The title of the figure.
+    """
     from matplotlib.figure import Figure
 
     hinges = list(dict.fromkeys(arm.hinge.address for arm in arms))

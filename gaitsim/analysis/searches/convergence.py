@@ -78,7 +78,15 @@ def scores_of(evaluations: list[Evaluation]) -> Scores:
 
 
 def tuned_in(folder: Path, manifest: Mapping[str, Any]) -> list[Tuned]:
-    """The tuned numbers of a result in the units of its table; empty if the table is missing or incomplete."""
+    """Read the tuned numbers of a result.
+
+    Args:
+        folder: The result.
+        manifest: Its manifest.
+
+    Returns:
+        The numbers in the units of parameters.csv; empty if that is missing or incomplete.
+    """
     path = folder / "parameters.csv"
     if not path.is_file():
         return []

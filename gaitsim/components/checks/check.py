@@ -114,11 +114,7 @@ def parse(text: str, file: str) -> ast.Module:
 
 
 def parse_shared(text: str, file: str) -> ast.Module:
-    """Parse a file that components of a kind import from.
-
-    Args:
-        text: The text of the file.
-        file: Its name in messages.
+    """Parse a file that components of a kind import from; the arguments are those of `parse`.
 
     Raises:
         InvalidComponent: It is not Python, or holds something that shared files must not hold.

@@ -40,8 +40,14 @@ def imported_names(text: str) -> list[str]:
 
 
 def whole(text: str, shared: Sequence[Shared]) -> str:
-    """The texts of the shared files followed by the text of the component. Its digest is the version of the
-    component.
+    """The text of a component with that of its shared files, whose digest is the version of the component.
+
+    Args:
+        text: The text of the component.
+        shared: The shared files that it imports from.
+
+    Returns:
+        The texts of the shared files, followed by that of the component.
     """
     return "".join(f"# {file.name}.py\n{file.text}" for file in shared) + text
 
