@@ -41,3 +41,16 @@ def test_a_muscle_instead_of_one_clutch_costs_more(variant: str, cost: float) ->
     found = Simulator(Opening(ROOT / "specs" / f"walking_endo_herr_{variant}.yaml").open().model()).run()
     assert found.metrics["fall_time"] == pytest.approx(20)
     assert found.metrics["cost_of_transport"] == pytest.approx(cost, abs=0.05)
+
+
+@pytest.mark.parametrize("step", ["2 ms", "1 ms"])
+def test_with_muscles_instead_of_three_clutches_steps_are_short_and_quick(step: str) -> None:
+    spec = ROOT / "specs" / "walking_endo_herr_muscles.yaml"
+    walk = Simulator(Opening(spec, ("simulate.duration=20 s", "simulate.step=" + step)).open().model()).run().metrics
+    assert walk["fall_time"] == pytest.approx(20)
+    assert 105 < walk["cadence"] < 113 and 0.7 < walk["step_length"] < 0.76
+    assert walk["correlation_knee"] > 0.95 and walk["correlation_ankle"] > 0.76
+    assert walk["cost_of_transport"] == pytest.approx(2.93, abs=0.05)
+    for side in "lr":
+        assert walk[f"work_vastus_{side}"] < -2
+        assert walk[f"work_gastrocnemius_{side}"] > 1 and walk[f"work_hamstrings_{side}"] > 1
