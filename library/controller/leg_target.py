@@ -14,7 +14,7 @@ class LegTarget(Component):
     distance_gain = Parameter("deg/m", "c_d.", bounds=(-1000, 1000))
     velocity_gain = Parameter("deg s/m", "c_v.", bounds=(-1000, 1000))
     lean_gain = Parameter(
-        "1", "c_theta: -1 in the sagittal plane, 1 sideways.", default=-1, bounds=(-1, 1), source="song2015"
+        "1", "c_theta: -1 in the sagittal plane, 1 sideways.", default=-1, bounds=(-1, 1), source="songmodel"
     )
     distance = Input("m", "d.")
     velocity = Input("m/s", "v.")

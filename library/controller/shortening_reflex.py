@@ -10,7 +10,7 @@ class ShorteningReflex(Component):
 
     gain = Parameter("s", "k: stimulation per l_opt/s of shortening.", bounds=(-100, 100))
     max_contraction_velocity = Parameter(
-        "1/s", "v_max of the muscle that is felt, in l_opt/s.", default=12, bounds=(1, 50), source="song2015"
+        "1/s", "v_max of the muscle that is felt, in l_opt/s.", default=12, bounds=(1, 50), source="songmodel"
     )
     velocity = Input("1", "Its fiber velocity in v_max; shortening is negative.")
     gate = Input("1", "1 lets the reflex through, 0 leaves nothing.", default=1)

@@ -14,7 +14,7 @@ class Song2015KneeHold(Component):
     biceps_slope = Parameter("1/rad", "p: fiber length of the biceps over the angle of the knee.", bounds=(0.01, 10))
     rectus_slope = Parameter("1/rad", "a: fiber length of the rectus over the angle of the leg.", bounds=(0.01, 10))
     max_contraction_velocity = Parameter(
-        "1/s", "v_max of the three muscles, in l_opt/s.", default=12, bounds=(1, 50), source="song2015"
+        "1/s", "v_max of the three muscles, in l_opt/s.", default=12, bounds=(1, 50), source="songmodel"
     )
     vastus_velocity = Input("1", "v_VAS: fiber velocity in v_max; lengthening is positive.")
     biceps_velocity = Input("1", "v_BFSH: fiber velocity in v_max.")

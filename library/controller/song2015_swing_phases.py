@@ -24,7 +24,7 @@ class Song2015SwingPhases(Component):
         "l_clr: distance of hip and ankle at which M7 ends; beyond a straight leg it ends at once.",
         bounds=(0, 100),
     )
-    segment = Parameter("m", "Length of thigh and of shank.", default=0.46, bounds=(0.01, 10), source="song2015")
+    segment = Parameter("m", "Length of thigh and of shank.", default=0.46, bounds=(0.01, 10), source="songmodel")
     slope = Parameter("1/rad", "Fiber length of the biceps over the angle of the knee.", bounds=(-10, 10))
     reference = Parameter("deg", "Angle of the knee at which it is l_opt.", bounds=(0, 360))
     in_stance = Input("1", "1 while the leg stands.")

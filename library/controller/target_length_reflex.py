@@ -10,13 +10,13 @@ class TargetLengthReflex(Component):
 
     gain = Parameter("1", "k: stimulation per l_opt.", bounds=(-100, 100))
     velocity_gain = Parameter(
-        "s", "k_v: stimulation per l_opt/s of shortening.", default=0, bounds=(-100, 100), source="song2015: M10"
+        "s", "k_v: stimulation per l_opt/s of shortening.", default=0, bounds=(-100, 100), source="songmodel: M10"
     )
     slope = Parameter("1/rad", "c: fiber length over the angle, in l_opt.", bounds=(-10, 10))
     reference = Parameter("deg", "a_ref: angle at which the fiber is l_opt.", bounds=(-360, 360))
-    offset = Parameter("deg", "b: angle added to the target.", default=0, bounds=(-360, 360), source="song2015: M6")
+    offset = Parameter("deg", "b: angle added to the target.", default=0, bounds=(-360, 360), source="songmodel: M6")
     max_contraction_velocity = Parameter(
-        "1/s", "v_max of the muscle, in l_opt/s.", default=12, bounds=(1, 50), source="song2015"
+        "1/s", "v_max of the muscle, in l_opt/s.", default=12, bounds=(1, 50), source="songmodel"
     )
     length = Input("1", "Fiber length of the muscle that is felt, in l_opt.")
     velocity = Input("1", "Its fiber velocity in v_max; shortening is negative.", default=0)
