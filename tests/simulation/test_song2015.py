@@ -1,6 +1,8 @@
-"""The walker of Song & Geyer (2015) in the plane as it is shipped."""
+"""The walker of Song & Geyer (2015) as it is shipped, in the plane and in space."""
 
 from __future__ import annotations
+
+from pathlib import Path
 
 import pytest
 
@@ -10,6 +12,7 @@ from gaitsim.text.document import MappingNode, parse, plain
 
 from .models import ROOT
 
+SPACE = ROOT / "specs" / "walking_song2015.yaml"
 PLANAR = ROOT / "specs" / "walking_song2015_planar.yaml"
 
 
@@ -20,8 +23,8 @@ def parts(name: str) -> MappingNode:
     return found
 
 
-def walk(step: str) -> dict[str, float]:
-    found = Simulator(Opening(PLANAR, ("simulate.step=" + step,)).open().model()).run()
+def walk(step: str, spec: Path = PLANAR) -> dict[str, float]:
+    found = Simulator(Opening(spec, ("simulate.step=" + step,)).open().model()).run()
     assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
     return found.metrics
 
@@ -53,3 +56,21 @@ def test_it_walks_in_the_plane_at_half_and_at_twice_its_step() -> None:
         found = walk(step)
         assert found["fall_time.fell"] == 0
         assert found["speed"] == pytest.approx(1.23, abs=0.03)
+
+
+def test_it_walks_in_space() -> None:
+    found = walk("1 ms", SPACE)
+    assert found["fall_time"] == pytest.approx(20) and found["fall_time.fell"] == 0
+    assert 1.15 < found["speed"] < 1.35
+    assert 0.58 < found["stance_fraction"] < 0.62
+    assert 0.1 < found["step_width"] < 0.15 and abs(found["drift.distance"]) < 0.5
+    assert found["correlation_hip"] > 0.86 and found["correlation_knee"] > 0.95 and found["correlation_ankle"] > 0.86
+    assert max(found["force_peaks_l"], found["force_peaks_r"]) < 1.35
+    assert found["step_length.asymmetry"] < 0.02
+
+
+@pytest.mark.slow
+def test_it_walks_in_space_at_half_its_step() -> None:
+    found = walk("0.5 ms", SPACE)
+    assert found["fall_time.fell"] == 0
+    assert found["speed"] == pytest.approx(1.3, abs=0.03)

@@ -1,0 +1,29 @@
+from gaitsim.component import Component, Input, Output
+
+
+class SwingChoice(Component):
+    """Which leg starts its swing while both stand: the one that is further from its target (Song & Geyer 2015).
+
+    How far a leg is from its target is |a - a_tgt| + |b - b_tgt|, with the angle of the leg a = phi_hip - phi_knee / 2
+    in the sagittal plane, and the abduction b of the hip. Each leg has such a part, which reads the distance of the
+    other.
+    """
+
+    hip_angle = Input("rad", "phi_hip: 180 deg upright, grows in extension.")
+    knee_angle = Input("rad", "phi_knee: 180 deg straight, grows in extension.")
+    target = Input("rad", "a_tgt: target angle of the leg.")
+    abduction = Input("rad", "b: abduction of the hip.", default=0)
+    abduction_target = Input("rad", "b_tgt.", default=0)
+    opposite_mismatch = Input("rad", "How far the other leg is from its target.")
+    in_stance = Input("1", "1 while the leg stands.")
+    opposite_in_stance = Input("1", "1 while the other leg stands.")
+    angle = Output("rad", "a: angle of the leg; 90 deg if it is under an upright trunk, less in front of it.")
+    mismatch = Output("rad", "How far the leg is from its target.")
+    initiation = Output("1", "I: 1 while both legs stand and this one shall swing.")
+
+    @staticmethod
+    def output(p, u, x, y):
+        y.angle = u.hip_angle - 0.5 * u.knee_angle
+        y.mismatch = abs(y.angle - u.target) + abs(u.abduction - u.abduction_target)
+        both = u.in_stance > 0.5 and u.opposite_in_stance > 0.5
+        y.initiation = 1.0 if both and y.mismatch > u.opposite_mismatch else 0.0

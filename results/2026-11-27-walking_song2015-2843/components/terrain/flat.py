@@ -1,0 +1,18 @@
+from gaitsim.component import Component, Input, Output
+
+
+class Flat(Component):
+    """Level ground at height 0."""
+
+    position = Input("m", "Position along the ground.", default=0)
+    height = Output("m", "Height of the ground there.")
+    slope = Output("rad", "Slope of the ground in the forward direction.")
+
+    @staticmethod
+    def output(p, u, x, y):
+        y.height = 0.0
+        y.slope = 0.0
+
+    @staticmethod
+    def build(p, mj):
+        mj.ground()
