@@ -54,7 +54,7 @@ def test_a_component_that_links_to_another_kind_of_file(name: str, gaitsim: Call
     said = gaitsim("check", "spec.yaml")
     assert said.code == 3 and "hushhush" not in said.out + said.err
     if "kind" not in name:
-        rule = f"this links to {Path('shadow').absolute()}, which is no {link.suffix} file"
+        rule = f"this links to {Path('shadow').absolute()}, which is not a {link.suffix} file"
         assert f"{link}: {rule}; name a component of your own." in said.err
 
 
@@ -66,7 +66,7 @@ def test_a_table_that_links_to_another_kind_of_file(gaitsim: Callable[..., Said]
     Path("spec.yaml").write_text(SPEC + curve)
     said = gaitsim("check", "spec.yaml")
     assert said.code == 3 and "hushhush" not in said.out + said.err
-    assert "which is no .csv file; name a table of your own." in said.err
+    assert "which is not a .csv file; name a table of your own." in said.err
 
 
 def test_a_name_that_is_no_text(gaitsim: Callable[..., Said]) -> None:
