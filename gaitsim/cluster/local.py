@@ -111,8 +111,8 @@ class Local:
     def _ready(self) -> list[Worker]:
         """The workers that have an answer or are dead; none if a worker exceeds its time."""
         busy = {worker.answers: worker for worker in self._workers if worker.given}
-        time_limits = min(worker.since for worker in busy.values()) + self._pace.limit - time.monotonic()
-        return [busy[connection] for connection in wait([*busy], max(0.0, time_limits))]  # type: ignore[index]
+        seconds_left = min(worker.since for worker in busy.values()) + self._pace.limit - time.monotonic()
+        return [busy[connection] for connection in wait([*busy], max(0.0, seconds_left))]  # type: ignore[index]
 
     def _overdue(self) -> list[Worker]:
         now = time.monotonic()
