@@ -7,14 +7,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
+from gaitsim.compiler.instant import Instant
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES
 from gaitsim.compiler.native import EVENTS, FRAME, HALVINGS, RUNGE_KUTTA
 from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, NOTHING, POINTER, SHORT, Writer
-
-if TYPE_CHECKING:
-    from gaitsim.compiler.translation import Translation
 
 _STEP = {**FRAME, "ties": "pointer", **dict.fromkeys(("model", "data", "qpos", "qvel"), "shared")}
 _MOVE = {**_STEP, "begin": "pointer", "speed": "pointer", "span": "number"}
@@ -22,9 +20,9 @@ _MOVE = {**_STEP, "begin": "pointer", "speed": "pointer", "span": "number"}
 
 @dataclass
 class Events:
-    """What a translation needs for the steps of a plan with guards."""
+    """The steps of a plan with guards."""
 
-    of: Translation
+    of: Instant
 
     def advance(self, f: Writer) -> Any:
         """Emit one whole step of the mechanics.

@@ -8,26 +8,47 @@ coordinates; then the rest of the step follows. `compiler/events.py` does the sa
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import mujoco
 import numpy as np
 
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES, tie_place
 from gaitsim.compiler.native import EVENTS, HALVINGS, RUNGE_KUTTA
-from gaitsim.compiler.program import Floats
+from gaitsim.compiler.program import Floats, Program
 from gaitsim.components.checks.check import GUARD
 from gaitsim.simulation.failure import of_events
-
-if TYPE_CHECKING:
-    from gaitsim.simulation.python_loop import Checked
+from gaitsim.simulation.physics import Physics
 
 
 class Failed(Exception):
     """A component failed. The text says which and why."""
 
 
-def advance(run: Checked, step: int) -> None:
+class Run(Protocol):
+    """What steps with events need of a run; each method may raise `Failed`."""
+
+    program: Program
+    physics: Physics
+    dt: float
+
+    def look(self, step: int) -> None:
+        """Compute all outputs at the present positions and velocities of MuJoCo."""
+
+    def apply(self, step: int) -> None:
+        """Write forces and controls to MuJoCo."""
+
+    def gather(self, part: int, step: int) -> None:
+        """Sum the senders of a part's inputs."""
+
+    def call(self, part: int, stage: str, step: int, check: bool = True, time: float | None = None) -> None:
+        """Call one function of a part."""
+
+    def sent(self, part: int, port: str) -> Any:
+        """The value of an output of a part, or of an input."""
+
+
+def advance(run: Run, step: int) -> None:
     """Advance the mechanics by one step.
 
     Args:
@@ -61,7 +82,7 @@ def advance(run: Checked, step: int) -> None:
     raise Failed(of_events(run.program, risen, step))
 
 
-def _move(run: Checked, step: int, begin: tuple[Floats, Floats], span: float) -> None:
+def _move(run: Run, step: int, begin: tuple[Floats, Floats], span: float) -> None:
     """Move from the coordinates and rates at the beginning on for a time, and compute all outputs there."""
     model, data = run.physics.model, run.physics.data
     position, speed = begin
@@ -82,17 +103,17 @@ def _move(run: Checked, step: int, begin: tuple[Floats, Floats], span: float) ->
     run.look(step)
 
 
-def _guards(run: Checked) -> list[float]:
+def _guards(run: Run) -> list[float]:
     return [float(run.sent(part, GUARD)) for part in run.program.guarded]
 
 
-def _risen(run: Checked, before: list[float]) -> list[int]:
+def _risen(run: Run, before: list[float]) -> list[int]:
     """The parts whose guards rose through 0."""
     guards = zip(run.program.guarded, before, _guards(run), strict=True)
     return [part for part, earlier, now in guards if earlier < 0 <= now]
 
 
-def _reset(run: Checked, step: int, parts: list[int], time: float) -> None:
+def _reset(run: Run, step: int, parts: list[int], time: float) -> None:
     """Apply the events of an instant: coordinates, and states of their parts."""
     physics = run.physics
     for part in {part for part, _ in physics.assembly.resets}:
