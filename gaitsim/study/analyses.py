@@ -102,7 +102,7 @@ def analyzed(openings: Sequence[Opening], candidates: Sequence[str], wanted: Wan
     with listener.waiting("running again"):
         replays = _replayed(runs, window, products)
     against = [wanted.against] if wanted.against else []
-    _say_lacking(replays, [*wanted.plot, *wanted.return_map, *against], listener)
+    _say_missing(replays, [*wanted.plot, *wanted.return_map, *against], listener)
     asked = _asked(replays, wanted.plot, wanted.against, wanted.return_map)
     products.draw([*asked, *([] if wanted.only else default_figures(replays))], wanted.formats)
     products.export(replays, wanted.export, spacing)
@@ -192,14 +192,15 @@ def _asked(
 ) -> list[Callable[[], list[Drawing]]]:
     """Functions that make the figures of --plot and --return-map. For a muscle, --plot makes its own figures."""
     from gaitsim.analysis.muscles import figures as muscles
-    from gaitsim.analysis.signals import plots
+    from gaitsim.analysis.signals import plots, return_map_figure
+    from gaitsim.analysis.signals.selection import runs_without
 
     def map_of(text: str) -> list[Drawing]:
-        return [plots.return_map(replays, text)]
+        return [return_map_figure.return_map(replays, text)]
 
     def over_time(text: str) -> list[Drawing]:
         own = [(replay, address) for replay in replays for address in muscles.matching_muscles(replay, text)]
-        if own and len(plots.lacking(replays, text)) == len(replays):
+        if own and len(runs_without(replays, text)) == len(replays):
             return [drawing for replay, address in own for drawing in muscles.figures_of(replay, address)]
         return plots.against_time(replays, text)
 
@@ -208,12 +209,12 @@ def _asked(
     return [*drawn, *(partial(map_of, text) for text in return_maps)]
 
 
-def _say_lacking(replays: list[Replay], words: Sequence[str], listener: Listener) -> None:
+def _say_missing(replays: list[Replay], words: Sequence[str], listener: Listener) -> None:
     """Report the runs that lack a signal which others have."""
-    from gaitsim.analysis.signals.plots import lacking
+    from gaitsim.analysis.signals.selection import runs_without
 
     for text in words:
-        without = lacking(replays, text)
+        without = runs_without(replays, text)
         if 0 < len(without) < len(replays):
             listener.say(f"{text}: {', '.join(without)} has no such signal")
 

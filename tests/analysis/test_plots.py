@@ -13,6 +13,8 @@ from gaitsim.analysis.drawings.drawing import Drawing, save
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.signals import plots
 from gaitsim.analysis.signals.pattern import NoSuchSignal
+from gaitsim.analysis.signals.return_map_figure import TooFewEvents, return_map
+from gaitsim.analysis.signals.selection import runs_without
 
 from .swinging import replay
 
@@ -136,7 +138,7 @@ def test_against_must_be_one_other_signal(swing: Replay) -> None:
 
 def test_the_return_map_of_a_damped_swing(swing: Replay, braked: Replay) -> None:
     stiffer = replay(("brake.proportional", "2 N m/rad"), label="stiffer")
-    drawing = plots.return_map([swing, braked, stiffer], "pivot.angle")
+    drawing = return_map([swing, braked, stiffer], "pivot.angle")
     (axes,) = axes_of(drawing)
     assert axes.get_xlabel() == "pivot.angle, maximum n (rad)"
     assert axes.get_ylabel() == "pivot.angle, maximum n + 1 (rad)"
@@ -152,13 +154,13 @@ def test_the_return_map_of_a_damped_swing(swing: Replay, braked: Replay) -> None
 
 
 def test_a_measure_stands_for_what_it_watches(swing: Replay) -> None:
-    drawing = plots.return_map([swing], "swing")
+    drawing = return_map([swing], "swing")
     assert (drawing.name, drawing.title) == ("swing.return_map", "return map of pivot.angle")
 
 
 def test_too_few_events_for_a_return_map(swing: Replay) -> None:
-    with pytest.raises(plots.TooFewEvents) as error:
-        plots.return_map([swing.between(0, 3)], "pivot.angle")
+    with pytest.raises(TooFewEvents) as error:
+        return_map([swing.between(0, 3)], "pivot.angle")
     assert str(error.value) == (
         "pivot.angle: a return map needs 3 maxima of pivot.angle, and free has 1; simulate longer, such as "
         "--set 'simulate.duration=20 s', or name another signal."
@@ -171,7 +173,7 @@ def test_a_signal_that_one_run_lacks_is_drawn_of_the_others(swing: Replay) -> No
     (drawing,) = plots.against_time([swing, other], "watch.turned")
     assert drawn(drawing) == [("watch.turned\n(rad)", ["free"])]
     assert drawing.caption.endswith("blind has no such signal.")
-    assert plots.lacking([swing, other], "watch.turned") == ["blind"]
+    assert runs_without([swing, other], "watch.turned") == ["blind"]
     with pytest.raises(NoSuchSignal, match=r"^watch\.turned: there is no such signal; "):
         plots.against_time([other], "watch.turned")
 
