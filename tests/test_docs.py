@@ -22,7 +22,8 @@ import matplotlib as mpl
 import pytest
 from typer.main import get_command
 
-from gaitsim.cli.main import app, main
+from gaitsim.cli.main import main
+from gaitsim.cli.program import whole_program
 from gaitsim.components.find import Library, shipped_folder
 from gaitsim.text.document import parse
 
@@ -47,7 +48,7 @@ QUICK |= {
 }
 UNRUN = ("view", "--cluster", "--help", "--install-completion")
 SHORT = ["--mode", "normal", "--set", "simulate.duration=20 ms"]
-TREE: Any = get_command(app)  # made once: to make it takes longer than most commands
+TREE: Any = get_command(whole_program())  # made once: to make it takes longer than most commands
 LONG = ("--vary", "--draws", "--convergence", "--adopt", "--resume", "simulate.")
 
 

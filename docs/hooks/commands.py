@@ -9,7 +9,7 @@ from typing import Any
 import typer.main
 from parts_of_text import Page, code, escaped, table
 
-from gaitsim.cli.main import app
+from gaitsim.cli.program import whole_program
 
 _HEAD = """\
 # Commands
@@ -31,7 +31,10 @@ is one JSON document. `gaitsim --install-completion` installs completion for you
 
 def page() -> Page:
     """Every command with its arguments and options."""
-    texts = [_HEAD, *(_text(words, command) for words, command in _commands(typer.main.get_command(app), ()))]
+    texts = [
+        _HEAD,
+        *(_text(words, command) for words, command in _commands(typer.main.get_command(whole_program()), ())),
+    ]
     return Page("reference/commands.md", "\n".join(texts))
 
 

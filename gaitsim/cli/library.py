@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from gaitsim.cli import console
+from gaitsim.cli import console, library_promote, library_uses
 from gaitsim.cli.options import Json, Libraries, Reference
 from gaitsim.cli.options import complete_kinds as _kinds
 from gaitsim.cli.options import complete_references as _references
@@ -258,3 +258,9 @@ def _cell(value: Any) -> str:
         pairs = all(isinstance(item, list | tuple) and len(item) == 2 for item in value)
         return ", ".join(" = ".join(map(_cell, item)) if pairs else _cell(item) for item in value)
     return f"{value:g}" if isinstance(value, float | int) and not isinstance(value, bool) else str(value)
+
+
+app.command("used-by")(library_uses.used_by)
+app.command("test")(library_uses.test)
+app.command("promote")(library_promote.promote)
+app.command("history")(library_uses.history)

@@ -2,119 +2,26 @@
 
 from __future__ import annotations
 
+import atexit
 import gc
 import io
 import os
 import sys
 import traceback
-from collections.abc import Callable, Mapping, Sequence
-from typing import Annotated, Any
 
-import typer
-
-from gaitsim import __version__
-from gaitsim.cli import (
-    analyze,
-    archive,
-    check,
-    cite,
-    cohort,
-    console,
-    cycle,
-    library,
-    library_promote,
-    library_uses,
-    limit,
-    new,
-    optimize,
-    profile,
-    projects,
-    results,
-    run,
-    schema,
-    show,
-    view,
-)
+from gaitsim.cli import console
 from gaitsim.cli.interrupts import heard_once
 from gaitsim.errors import ExitCode, GaitsimError, Usage
 
-library.app.command("used-by")(library_uses.used_by)
-library.app.command("test")(library_uses.test)
-library.app.command("promote")(library_promote.promote)
-library.app.command("history")(library_uses.history)
-
-# Allocations before a garbage collection. Imported objects stay, so the default of 700 wastes time.
-_GARBAGE = 20_000
-
-COMMANDS: dict[str, Callable[..., Any]] = {
-    "run": run.run,
-    "optimize": optimize.optimize,
-    "limit": limit.limit,
-    "cohort": cohort.cohort,
-    "cycle": cycle.cycle,
-    "analyze": analyze.analyze,
-    "view": view.view,
-    "profile": profile.profile,
-    "check": check.check,
-    "show": show.show,
-    "cite": cite.cite,
-    "new": new.new,
-    "projects": projects.projects,
-    "schema": schema.schema,
-}
-GROUPS: dict[str, typer.Typer] = {"library": library.app, "archive": archive.app, "results": results.app}
-
-
-def _version(wanted: bool) -> None:
-    if wanted:
-        console.give(__version__)
-        raise typer.Exit
-
-
-def _main(
-    version: Annotated[
-        bool, typer.Option("--version", callback=_version, is_eager=True, help="Print the version.")
-    ] = False,
-) -> None:
-    pass
-
-
-def _program(commands: Mapping[str, Callable[..., Any]], groups: Mapping[str, typer.Typer]) -> typer.Typer:
-    """Make the program with some commands and groups of commands."""
-    made = typer.Typer(
-        help="Simulate, tune and analyze neuromuscular models of gait.",
-        no_args_is_help=True,
-        pretty_exceptions_enable=False,
-        rich_markup_mode=None,
-        context_settings={"help_option_names": ["-h", "--help"]},
-    )
-    made.callback()(_main)
-    for name, command in commands.items():
-        made.command(name)(command)
-    for name, group in groups.items():
-        made.add_typer(group, name=name)
-    return made
-
-
-app = _program(COMMANDS, GROUPS)
-
-
-def program_for(words: Sequence[str]) -> typer.Typer:
-    """The program for a command line. It has only the command that is called, because Typer would build all others
-    too.
-
-    Args:
-        words: The words after `gaitsim`. If the first is not a command, the program has all commands.
-    """
-    name = words[0] if words else ""
-    if name in COMMANDS:
-        return _program({name: COMMANDS[name]}, {})
-    return _program({}, {name: GROUPS[name]}) if name in GROUPS else app
+# A run makes 100,000 objects that stay to its end, most of them at imports. To look for garbage among them, as
+# Python does every 700 objects and once more at the end, would take a sixth of the time of the command.
+_GARBAGE = 200_000
 
 
 def main(arguments: list[str] | None = None) -> None:
     """Run one command. The exit code says which kind of failure occurred."""
     gc.set_threshold(_GARBAGE)
+    atexit.register(gc.freeze)
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a file name can contain any bytes
@@ -135,6 +42,8 @@ def _ran(words: list[str]) -> object:
         Its return value, or the exit code of its failure.
     """
     try:
+        from gaitsim.cli.program import program_for
+
         _check_words(words)
         return program_for(words)(args=words, prog_name="gaitsim", standalone_mode=False)
     except GaitsimError as error:

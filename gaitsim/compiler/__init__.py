@@ -21,7 +21,7 @@ def _import_without_opengl() -> None:
             os.environ["MUJOCO_GL"] = wanted
 
 
-if "gaitsim.cli.main" in sys.modules:
+if "gaitsim.cli.program" in sys.modules:
     _import_without_opengl()
 else:
     try:

@@ -11,14 +11,14 @@ from collections.abc import Iterator
 import pytest
 import typer.main
 
-from gaitsim.cli.main import app
+from gaitsim.cli.program import whole_program
 
 from .commands import gaitsim
 
 
 def commands(group: object = None, words: tuple[str, ...] = ()) -> Iterator[tuple[str, ...]]:
     """The words of every command that does something."""
-    group = group or typer.main.get_command(app)
+    group = group or typer.main.get_command(whole_program())
     inner = getattr(group, "commands", None)
     if inner is None:
         yield words

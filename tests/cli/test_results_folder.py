@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 import gaitsim as notebook
-from gaitsim.cli.main import app
+from gaitsim.cli.program import whole_program
 from gaitsim.components.find import shipped_specs
 
 from .commands import gaitsim
@@ -97,5 +97,5 @@ def test_notebooks_know_the_variable(monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_every_command_about_results_has_the_option() -> None:
     named = ("run", "optimize", "limit", "analyze", "view", "show", "check", "cite", "profile")
-    commands = {command.name: command.callback for command in app.registered_commands}
+    commands = {command.name: command.callback for command in whole_program().registered_commands}
     assert [name for name in named if "results" not in signature(commands[name]).parameters] == []

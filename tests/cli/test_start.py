@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import typer.main
 
-from gaitsim.cli.main import app, program_for
+from gaitsim.cli.program import program_for, whole_program
 from gaitsim.components import contract
 from gaitsim.components.find import Library
 from gaitsim.study import opened
@@ -50,7 +50,7 @@ def test_one_command_is_built_if_one_is_called(words: list[str], commands: list[
 
 @pytest.mark.parametrize("words", [[], ["--help"], ["rnu"]], ids=str)
 def test_all_commands_are_built_if_none_is_called(words: list[str]) -> None:
-    assert program_for(words) is app
+    assert program_for(words) is whole_program()
 
 
 def test_a_tuned_spec_is_resolved_once(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
