@@ -22,6 +22,7 @@ def main(arguments: list[str] | None = None) -> None:
     """Run one command. The exit code says which kind of failure occurred."""
     gc.set_threshold(_GARBAGE)
     atexit.register(gc.freeze)
+    os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # or it looks for some in all installed packages
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a file name can contain any bytes

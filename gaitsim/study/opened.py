@@ -11,7 +11,6 @@ from gaitsim.components.find import Library
 from gaitsim.model import Model
 from gaitsim.results.bundle import Bundle, bundled
 from gaitsim.results.manifest import read_result
-from gaitsim.results.pick import pick
 from gaitsim.results.rows import pick_row, read_rows, row_starts, row_words
 from gaitsim.results.trust import check_trust
 from gaitsim.spec.inheritance import override, split_setting, without
@@ -85,6 +84,8 @@ def open_result(folder: Path, settings: Sequence[str], trusted: bool, candidate:
         InvalidSpec: The spec breaks a rule.
         Usage: The request does not fit.
     """
+    from gaitsim.results.pick import pick
+
     manifest, bundle = read_result(folder)
     check_trust(bundle, trusted)
     document, library, name = bundle.document(), bundle.library(), bundle.name

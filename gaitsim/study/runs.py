@@ -49,9 +49,11 @@ class Places:
         Raises:
             CannotSave: The folder cannot be written.
         """
+        out, results = self.out, self.results
+        if out is None and results is None:
+            return
         from gaitsim.results.store import CannotSave
 
-        out, results = self.out, self.results
         if out is not None and out.is_dir():
             raise CannotSave(f"{out}: this is a folder; name a file in it, such as --out {out / 'trajectory.csv'}.")
         blocked = next((folder for folder in out.parents if folder.is_file()), None) if out is not None else None

@@ -24,7 +24,8 @@ _INTEGER = re.compile(r"[-+]?(0|[1-9][0-9]*)")
 _FLOAT = re.compile(r"[-+]?((0|[1-9][0-9]*)(\.[0-9]*)?|\.[0-9]+)([eE][-+]?[0-9]+)?")
 _WORDS: dict[str, bool | None] = {"": None, "~": None, "null": None, "true": True, "false": False}
 _BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
-_CONTROL = re.compile("[^\t\x20-\x7e\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+# All but what YAML allows: tab, \x20 to \x7e, \xa0 to \ud7ff, \ue000 to \ufffd, \U00010000 and above.
+_CONTROL = re.compile("[\x00-\x08\x0a-\x1f\x7f-\x9f\ud800-\udfff\ufffe\uffff]")
 _SIDE = re.compile(r"\{(other|side)\}")
 _HIDDEN = re.compile("⟨(other|side)⟩")
 _EMPTY = 'there is nothing in it; write "parts:" and below it the parts.'
