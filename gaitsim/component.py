@@ -76,11 +76,16 @@ class Series:
 
     A spec names a column of a table, such as `norms/fukuchi2018_walking.knee_flexion`, or writes a list, such as `[0
     deg, 60 deg, 0 deg]`. Both are interpolated to this size.
+
+    Attributes:
+        listed: Whether the numbers are a list of their own instead, such as instants and values at them: at most `size`
+            numbers, as they are written, and nan after the last. Instants, in units of time, increase.
     """
 
     unit: str
     doc: str
     size: int
+    listed: bool = False
 
 
 @dataclass(frozen=True)
@@ -134,6 +139,7 @@ class Output:
     Attributes:
         usual: The usual range at the start of a run. A start outside it is reported.
         possible: The possible range at the start of a run. A start outside it is an error.
+        like: For the unit `*`, the series or the parameter in whose unit the signal is.
 
     Both ranges have a low and a high end: numbers in `unit`, or expressions of parameters in SI, such as "upper + 0.1".
     """
@@ -142,6 +148,7 @@ class Output:
     doc: str
     usual: tuple[End, End] | None = None
     possible: tuple[End, End] | None = None
+    like: str = ""
 
 
 @dataclass(frozen=True)

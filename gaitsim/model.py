@@ -7,6 +7,7 @@ from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+from gaitsim.component import Input, Output
 from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Mark, SimulationFailed
 from gaitsim.text.expression import Expression
@@ -355,12 +356,27 @@ def _like(unit: str, other: str) -> str:
     return unit if other == "*" or parse_unit(unit).dimension == parse_unit(other).dimension else other
 
 
+def port_unit(part: Part, port: Input | Output, numbers: Sequence[Number]) -> str:
+    """The unit of a port: its own, or that of the series or the number that it is declared like.
+
+    Args:
+        part: The part.
+        port: The declaration.
+        numbers: The numbers of the model.
+    """
+    if port.like in part.series:
+        return part.series[port.like].unit
+    number = part.numbers.get(port.like)
+    return port.unit if number is None else numbers[number].unit.text
+
+
 def recorded_signals(model: Model) -> tuple[Signal, ...]:
     """The signals of a trajectory: every output, and every state of one number except those of measures."""
     found = []
     for part in model.parts:
         place = part.address
-        found += [Signal(f"{place}.{name}", parse_unit(o.unit).si, o.doc) for name, o in part.type.outputs.items()]
+        units = {name: port_unit(part, o, model.numbers) for name, o in part.type.outputs.items()}
+        found += [Signal(f"{place}.{name}", parse_unit(units[name]).si, o.doc) for name, o in part.type.outputs.items()]
         if not part.measure:
             states = {name: s for name, s in part.type.states.items() if s.size is None}
             found += [Signal(f"{place}.{name}", parse_unit(s.unit).si, s.doc, s.levels) for name, s in states.items()]

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field, replace
 
 from gaitsim.component import Parameter
 from gaitsim.errors import Mark, did_you_mean
-from gaitsim.model import WORLD, Connection, Part, Place
+from gaitsim.model import WORLD, Connection, Part, Place, port_unit
 from gaitsim.spec.expand import Expansion
-from gaitsim.spec.ports import Wire
+from gaitsim.spec.scope import Wire
 from gaitsim.text.quantity import measured
 from gaitsim.units import parse_unit
 
@@ -125,10 +125,7 @@ class Wiring:
     def _unit(self, port: str, ports: str) -> str:
         owner, _, name = port.rpartition(".")
         part = self.parts[owner]
-        declared = getattr(part.type, ports)[name]
-        curve = part.series.get(getattr(declared, "like", ""))
-        unit: str = curve.unit if curve else declared.unit
-        return unit
+        return port_unit(part, getattr(part.type, ports)[name], self.expansion.table.numbers)
 
     def _connection(self, sender: str, target: str, wire: Wire) -> Connection:
         initial = None

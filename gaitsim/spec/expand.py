@@ -5,22 +5,24 @@ evaluated.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, field, replace
 
 from gaitsim.component import Input, Parameter
 from gaitsim.component import Part as InnerPart
 from gaitsim.components.composite import ComponentFile, Composite
+from gaitsim.components.contract import read_contract
+from gaitsim.components.driven import driven, obstacle
 from gaitsim.components.find import Library, faults_at
 from gaitsim.components.primitive import Primitive
 from gaitsim.errors import Faults, GaitsimError, Mark, did_you_mean, nearest, with_article
 from gaitsim.model import Group, Part, Place, Recording
 from gaitsim.spec.inheritance import merged, without
-from gaitsim.spec.numbers import Names, NumberTable
+from gaitsim.spec.numbers import SIGNAL, Names, NumberTable
 from gaitsim.spec.points import PointReader
-from gaitsim.spec.ports import PortReader, Wire
-from gaitsim.spec.scope import Scope, Where
-from gaitsim.spec.series import SAMPLE, read_series
+from gaitsim.spec.ports import PortReader, is_connection
+from gaitsim.spec.scope import Scope, Where, Wire
+from gaitsim.spec.series import SAMPLE, listed_sample, read_series
 from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode, plain
 from gaitsim.text.quantity import example
 from gaitsim.text.spelling import respelled
@@ -180,6 +182,9 @@ class Expansion:
         inside = Scope(address, where.logical, found.document.mark.file, {}, found.reference, outer=where.scope)
         for name, declared in found.parameters.items():
             given = node.entries.get(name, found.defaults.get(name))
+            if self._is_signal(given, where):
+                self._signal(name, declared, given, inside, where)
+                continue
             if given is None:
                 self.faults.add(_needs(name, declared), where.mark, address)
             names = where.scope.names if name in node.entries else dict(inside.names)
@@ -198,6 +203,28 @@ class Expansion:
         own = without(node, *(word for word in node.entries if word not in found.parts.entries))
         self.section(merged(found.parts, own), inside, where.side, where.measure)
         self._exposed(found, address)
+
+    def _is_signal(self, node: Node | None, where: Where) -> bool:
+        """Whether a signal sets a parameter: `{from: part.output}`, or the name of a parameter that a signal sets."""
+        return is_connection(node) or where.scope.passed(node) is not None
+
+    def _signal(self, name: str, declared: Parameter, given: Node | None, inside: Scope, where: Where) -> None:
+        """Keep the signal that sets a parameter of a composite, for the inner parts that it is passed on to."""
+        port = f"{where.address}.{name}"
+        wire = where.scope.passed(given)
+        if wire is None and isinstance(given, MappingNode):
+            wire = self.ports.connection(given, port, f"{where.logical}.{name}", where)
+        if wire is not None:
+            inside.signals[name] = wire
+        index = (
+            SIGNAL if wire else self.table.add(port, port, None, declared, {})
+        )  # after a fault it counts as a number
+        inside.names[name] = (index, declared.unit)
+
+    def _common(self, kind: str) -> Collection[str]:
+        """The parameters that every component of a kind has."""
+        found = self.library.contract(kind)
+        return read_contract(found[1], str(found[0]))["parameters"] if found else ()
 
     def _exposed(self, found: Composite, address: str) -> None:
         """Check that every port and frame of a composite names something inside."""
@@ -219,6 +246,17 @@ class Expansion:
 
     def _primitive(self, found: Primitive, node: MappingNode, where: Where) -> None:
         address = where.address
+        signals = [name for name in found.parameters if self._is_signal(node.entries.get(name), where)]
+        if signals:
+            common = self._common(found.kind)
+            obstacles = [(name, why) for name in signals if (why := obstacle(found, name, common))]
+            for name, why in obstacles:
+                rule = f"{why}, so no signal can set it; give it a number."
+                self.faults.add(rule, node.entries[name].mark, f"{address}.{name}")
+            if obstacles:
+                self.broken.add(address)
+                return
+            found = driven(found, frozenset(signals))
         numbers = {}
         for name, declared in found.parameters.items():
             given, names = node.entries.get(name), where.scope.names
@@ -275,7 +313,8 @@ class Expansion:
             address = f"{where.address}.{name}"
             given = node.entries.get(name)
             if given is None:
-                rule = f"needs {name} ({declared.doc.rstrip('.')}); write {name}: {SAMPLE}."
+                sample = listed_sample(declared) if declared.listed else SAMPLE
+                rule = f"needs {name} ({declared.doc.rstrip('.')}); write {name}: {sample}."
                 self.faults.add(rule, where.mark, where.address)
                 continue
             read = read_series(name, declared, given, self.library, self.faults, address)

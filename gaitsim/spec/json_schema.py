@@ -55,6 +55,7 @@ def spec_schema(library: Library) -> dict[str, Any]:
     schema = Header.model_json_schema()
     definitions = schema.setdefault("$defs", {})
     definitions |= {"value": _VALUE, "connection": _CONNECTION}
+    definitions["wired"] = {"anyOf": [{"$ref": "#/$defs/connection"}, {"$ref": "#/$defs/value"}]}
     cases = []
     for reference in library.references():
         try:
@@ -82,7 +83,7 @@ def _entry(component: ComponentFile) -> dict[str, Any]:
     """The schema of an entry that uses a component."""
     properties: dict[str, Any] = {"use": {"type": "string"}, **_STRUCTURE}
     for name, parameter in component.parameters.items():
-        properties[name] = _described("value", parameter.doc, parameter.unit, parameter.source)
+        properties[name] = _described("wired", parameter.doc, parameter.unit, parameter.source)
     for name in component.attachments:
         place = (
             "A frame, such as thigh.distal, or a place beside one, such as {on: thigh.distal, at: [1 cm, 0 m, 0 m]}."
@@ -98,8 +99,7 @@ def _entry(component: ComponentFile) -> dict[str, Any]:
         }
     else:
         for name, port in component.inputs.items():
-            wired = {"anyOf": [{"$ref": "#/$defs/connection"}, {"$ref": "#/$defs/value"}]}
-            properties[name] = wired | {"description": f"{port.doc} [{port.unit}]"}
+            properties[name] = {"$ref": "#/$defs/wired", "description": f"{port.doc} [{port.unit}]"}
         if TERMS in component.inputs and component.kind == "objective":
             named = {"type": "object", "additionalProperties": {"$ref": "#/$defs/part"}}
             properties[TERMS] = named | {"description": component.inputs[TERMS].doc}

@@ -16,6 +16,7 @@ from gaitsim.text.spelling import respelled
 from gaitsim.units import parse_unit, with_unit
 
 Names = dict[str, tuple[int, str]]
+SIGNAL = -1  # in place of the index of a number: the parameter is set by a signal
 _SPEC = "spec"  # the source of numbers that a spec sets without one
 
 
@@ -110,6 +111,13 @@ class NumberTable:
                 expression = parse_expression(text[1:], declared.unit, names)
             except BadExpression as error:
                 self.faults.add(str(error), node.mark, address)
+                return Number(address, unit, mark=node.mark)
+            driven = next((name for name, index in expression.names if index == SIGNAL), "")
+            if driven:
+                rule = (
+                    f"{text} needs a number, and {driven} is set by a signal; only ={driven} alone passes a signal on"
+                )
+                self.faults.add(f"{rule}. Give {driven} a number, or send a signal here too.", node.mark, address)
                 return Number(address, unit, mark=node.mark)
             self._computed[len(self.numbers)] = (declared, node)
             return Number(address, unit, expression=expression, mark=node.mark)

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from gaitsim.component import Input, Link, Option, Parameter
 from gaitsim.errors import Faults, Mark, did_you_mean
 from gaitsim.spec.numbers import Names, NumberTable, is_value
-from gaitsim.spec.scope import Where, absolute
+from gaitsim.spec.scope import Where, Wire, absolute
 from gaitsim.text.document import MappingNode, Node, ScalarNode, SequenceNode
 from gaitsim.text.quantity import quoted
 from gaitsim.text.spelling import respelled
@@ -17,16 +17,9 @@ _DELAY = Parameter("s", "a delay", bounds=(0, 3600))
 _FIELDS = ("from", "delay", "initial")
 
 
-@dataclass(frozen=True)
-class Wire:
-    """A connection as written. Its addresses are absolute and may be names of composites."""
-
-    sender: str
-    target: str
-    delay: int | None
-    initial: Node | None
-    made_by: str
-    mark: Mark
+def is_connection(node: Node | None) -> bool:
+    """Whether a node is a connection, such as `{from: soleus.force}`."""
+    return isinstance(node, MappingNode) and "from" in node.entries
 
 
 @dataclass(frozen=True)
@@ -60,6 +53,10 @@ class PortReader:
         if given is None:
             return
         self.tried.add(port)
+        passed = where.scope.passed(given)
+        if passed is not None:
+            self.wires.append(replace(passed, target=port))
+            return
         if isinstance(given, MappingNode) and not is_value(given):
             if declared.sums:
                 written = given.entries.get("from")
@@ -67,7 +64,8 @@ class PortReader:
                 rule = f"this input sums its senders; write to: {port} at the part{sender} instead."
                 self.faults.add(rule, given.mark, port)
             else:
-                self._from(given, port, f"{where.logical}.{name}", where)
+                wire = self.connection(given, port, f"{where.logical}.{name}", where)
+                self.wires += [wire] if wire else []
             return
         text = given.value if isinstance(given, ScalarNode) else None
         if isinstance(text, str) and text[:1] not in "=+-.0123456789":
@@ -75,6 +73,20 @@ class PortReader:
             self.faults.add(rule, given.mark, port)
             return
         self.constants.append(Constant(port, f"{where.logical}.{name}", given, where.scope.names))
+
+    def connection(self, given: MappingNode, port: str, logical: str, where: Where) -> Wire | None:
+        """Read `{from: part.output, delay: 15 ms, initial: 0}`; None after a fault."""
+        given = respelled(given, _FIELDS, "a connection has no key", self.faults, port)
+        written = given.entries.get("from")
+        if written is None:
+            self.faults.add("this connection has no sender; write such as {from: soleus.force}.", given.mark, port)
+            return None
+        text = self._text(written, "from: names an output; write such as {from: soleus.force}.", where)
+        sender = absolute(text, where, written.mark, self.faults) if text else None
+        if not sender:
+            return None
+        delay = self._delay(given, port, logical, where)
+        return Wire(sender, port, delay, given.entries.get("initial"), "", written.mark)
 
     def link(self, name: str, declared: Link, node: MappingNode, where: Where) -> None:
         """Add the connections that a link makes with the part that it names."""
@@ -136,18 +148,6 @@ class PortReader:
         mark = given.mark if given else where.mark
         self.faults.add(f"{name} {said}; choose one of {choices}.", mark, where.address)
         return declared.choices[0]
-
-    def _from(self, given: MappingNode, port: str, logical: str, where: Where) -> None:
-        given = respelled(given, _FIELDS, "a connection has no key", self.faults, port)
-        written = given.entries.get("from")
-        if written is None:
-            self.faults.add("this connection has no sender; write such as {from: soleus.force}.", given.mark, port)
-            return
-        text = self._text(written, "from: names an output; write such as {from: soleus.force}.", where)
-        sender = absolute(text, where, written.mark, self.faults) if text else None
-        if sender:
-            delay = self._delay(given, port, logical, where)
-            self.wires.append(Wire(sender, port, delay, given.entries.get("initial"), "", written.mark))
 
     def _send(self, output: str, node: Node, where: Where) -> None:
         if isinstance(node, SequenceNode):

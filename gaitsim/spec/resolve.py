@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -91,7 +92,12 @@ def resolve(document: MappingNode, library: Library, name: str) -> Model:
         initial=initial,
         objective=objective,
         simulate=simulate,
-        notices=(*expansion.notices, *library.notices, *_long_steps(parts, simulate.step)),
+        notices=(
+            *expansion.notices,
+            *library.notices,
+            *_long_steps(parts, simulate.step),
+            *_short_lists(parts, simulate.duration),
+        ),
         reproduces=known,
         dropped=frozenset(expansion.dropped),
     )
@@ -108,6 +114,18 @@ def _long_steps(parts: Iterable[Part], step: float) -> list[str]:
         f"and simulate.step is {1e3 * step:g} ms; see gaitsim library show {kind.reference}"
         for kind, addresses in beyond.items()
     ]
+
+
+def _short_lists(parts: Iterable[Part], duration: float) -> list[str]:
+    """A warning for each list of instants that ends before the run does."""
+    found = []
+    for part in parts:
+        for name, declared in part.type.series.items():
+            ends = max(v for v in part.series[name].values if not math.isnan(v))
+            if declared.listed and declared.unit == "s" and ends < duration * (1 - 1e-9):
+                rule = f"end at {ends:g} s and the run lasts {duration:g} s; the last value holds until then"
+                found.append(f"warning: {part.address}.{name} {rule}")
+    return found
 
 
 def _few(names: list[str]) -> str:

@@ -8,9 +8,21 @@ from dataclasses import dataclass, field
 from gaitsim.errors import Faults, Mark, did_you_mean
 from gaitsim.model import WORLD, Place
 from gaitsim.spec.numbers import Names
-from gaitsim.text.document import Node
+from gaitsim.text.document import Node, ScalarNode
 
 _OTHER = {"l": "r", "r": "l"}
+
+
+@dataclass(frozen=True)
+class Wire:
+    """A connection as written. Its addresses are absolute and may be names of composites."""
+
+    sender: str
+    target: str
+    delay: int | None
+    initial: Node | None
+    made_by: str
+    mark: Mark
 
 
 @dataclass
@@ -26,11 +38,17 @@ class Scope:
     attachments: dict[str, str] = field(default_factory=dict)
     places: dict[str, list[Place]] = field(default_factory=dict)  # attachments that are places beside a frame
     sided: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    signals: dict[str, Wire] = field(default_factory=dict)  # parameters that a signal sets
     outer: Scope | None = None
 
     def below(self, name: str) -> str:
         """The address of something inside this scope."""
         return f"{self.address}.{name}" if self.address else name
+
+    def passed(self, node: Node | None) -> Wire | None:
+        """The signal that an entry such as `=lean` passes on; None if it is a number."""
+        text = node.value if isinstance(node, ScalarNode) else None
+        return self.signals.get(text[1:].strip()) if isinstance(text, str) and text[:1] == "=" else None
 
     @property
     def references(self) -> list[str]:

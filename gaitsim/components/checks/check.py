@@ -24,7 +24,7 @@ from gaitsim.component import (
 )
 from gaitsim.components.checks.build import build_faults, placed
 from gaitsim.components.checks.curve import curve_faults
-from gaitsim.components.checks.declaration import field_faults
+from gaitsim.components.checks.declaration import field_faults, like_faults
 from gaitsim.components.checks.foreign import FORBIDDEN, foreign
 from gaitsim.components.checks.shared import imports_shared, used_functions
 from gaitsim.components.checks.start_range import range_faults
@@ -218,12 +218,8 @@ class _Check:
                 faults = list(curve_faults(name, one, self.known, self.helpers))
             elif isinstance(one, Input | Output | State) and not faults:
                 faults = list(range_faults(name, one, self.known))
-            if isinstance(one, Metric | Input) and one.like and not isinstance(self.known.get(one.like), Series):
-                faults.append(f"{name}: like is {one.like!r}, and that is not a series of this file; write its name.")
-            if isinstance(one, Metric | Input) and one.like and one.unit != "*":
-                kind = type(one).__name__
-                rule = f'has the unit of that; write {kind}("*", ...)'
-                faults.append(f"{name}: {'an' if kind == 'Input' else 'a'} {kind.lower()} like {one.like} {rule}.")
+            if isinstance(one, Metric | Input | Output) and one.like:
+                faults += like_faults(name, one, self.known)
             for message in faults:
                 self.add(message, self.places.get(name))
 

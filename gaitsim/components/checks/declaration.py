@@ -97,6 +97,7 @@ _FIELDS = {
 }
 _FIELDS |= {"possible": _FIELDS["usual"]}
 _FIELDS |= {"sends": _FIELDS["reads"], "gives": _FIELDS["reads"], "optional": _FIELDS["sums"]}
+_FIELDS |= {"listed": _FIELDS["sums"]}
 
 
 def field_faults(name: str, one: Declaration) -> Iterator[str]:
@@ -126,6 +127,17 @@ def field_faults(name: str, one: Declaration) -> Iterator[str]:
     if isinstance(one, Option) and one.default not in (None, *one.choices):
         said = did_you_mean(str(one.default), one.choices)
         yield f"{name}: default {one.default} is not one of its choices. {said}"
+
+
+def like_faults(name: str, one: Metric | Input | Output, known: Mapping[str, Declaration]) -> Iterator[str]:
+    """The messages for a port or a metric whose unit is said to be that of something else."""
+    kind, like = type(one).__name__, known.get(one.like)
+    if not isinstance(like, Series | Parameter if kind == "Output" else Series):
+        also = " or a parameter" if kind == "Output" else ""
+        yield f"{name}: like is {one.like!r}, and that is not a series{also} of this file; write its name."
+    if one.unit != "*":
+        rule = f'has the unit of that; write {kind}("*", ...)'
+        yield f"{name}: {'a' if kind == 'Metric' else 'an'} {kind.lower()} like {one.like} {rule}."
 
 
 def unknown_fields(tree: ast.Module) -> Iterator[tuple[str, ast.keyword]]:
