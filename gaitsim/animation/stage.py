@@ -10,6 +10,7 @@ import numpy as np
 
 from gaitsim.animation.arms import arm_paths
 from gaitsim.animation.errors import CannotAnimate
+from gaitsim.animation.relief import add_relief
 from gaitsim.animation.routes import Drawer
 from gaitsim.compiler.mechanics.ground import GROUND
 from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Point
@@ -27,6 +28,7 @@ _MASSLESS = {"mass": 0, "contype": 0, "conaffinity": 0}
 _WRAP = (0.55, 0.55, 0.55, 0.5)
 _TENDON = 0.013  # m, radius of a muscle's path
 _TRACK = (-40.0, 0.9)  # m, from behind the camera to the far side of the ground
+_ROUGH = (-2.5, 0.9)  # m, of uneven ground
 
 
 @dataclass(frozen=True)
@@ -98,6 +100,9 @@ def stage_of(model: Model, wide: bool = False) -> Stage:
     muscles = _muscles(model, assembly)
     _paint_tendons(spec, {name for name, _ in muscles})
     _furnish(spec, ground=bool(forces), wide=wide)
+    if assembly.relief is not None and forces:
+        near, far = _ROUGH if not wide else (_ROUGH[0], -_ROUGH[0])
+        add_relief(spec, assembly.relief, model.simulate.duration, near, far)
     mechanics = spec.compile()
     return Stage(
         mechanics,

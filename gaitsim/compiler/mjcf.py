@@ -10,8 +10,8 @@ from typing import Any
 import mujoco
 
 from gaitsim.compiler.mechanics.making import Made
-from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Touching, world_frames
-from gaitsim.compiler.mechanics.space import check_friction, check_sides, check_slopes
+from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Relief, Touching, world_frames
+from gaitsim.compiler.mechanics.space import check_friction, check_grounds, check_sides
 from gaitsim.compiler.mechanics.ties import Tie
 from gaitsim.compiler.mechanics.tree import Branch, branches, check_axes
 from gaitsim.compiler.mechanics.verbs import Mechanics, beside_frames, numbers_of
@@ -36,7 +36,7 @@ class Assembly:
     """A MuJoCo model, and the ties between it and the ports of parts as pairs (index of the part, tie).
 
     Resets are numbers that events set. Constants are numbers that parts read from the compiled model; they are kept in
-    MuJoCo's userdata. Drawings are shown beside the bodies in films.
+    MuJoCo's userdata. Drawings are shown beside the bodies in films. A relief is the height of uneven ground.
     """
 
     spec: Any
@@ -47,6 +47,7 @@ class Assembly:
     constants: tuple[float, ...]
     drawings: tuple[tuple[int, DrawnLine | DrawnForce], ...]
     touching: tuple[Touching, ...]
+    relief: Relief | None
     lifts: tuple[str, ...]
     begins: tuple[tuple[str, float, float], ...]
 
@@ -111,8 +112,10 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
     for part in model.parts:
         if "build" in part.type.functions and part.address not in done:
             build(part)
+    for make in made.later:
+        make()
     check_friction(model, spec, made)
-    check_slopes(model, made)
+    check_grounds(model, made)
     compiled = _compiled(spec, {str(part.mark): part for part in model.parts})
     spec.option.integrator = compiled.opt.integrator = _integrator(model, compiled)
     compiled.opt.disableflags |= _unused_stages(compiled)
@@ -125,6 +128,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
         tuple(of(compiled) for of in made.constants),
         tuple(made.drawings),
         tuple(made.touching),
+        next(iter(made.reliefs.values()), None),
         tuple(made.lifts),
         tuple(made.begins),
     )

@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import mujoco
 import numpy as np
 
 from gaitsim.compiler.mechanics.ground import GROUND
-from gaitsim.compiler.mechanics.places import Touching
+from gaitsim.compiler.mechanics.places import Relief, Touching
 from gaitsim.errors import SimulationFailed
 
 _ABOVE = 100.0  # m: the height from which the ground is searched downwards
 
 
-def stand(model: Any, data: Any, lift: int, touching: tuple[Touching, ...]) -> None:
+def stand(model: Any, data: Any, lift: int, touching: tuple[Touching, ...], relief: Relief | None = None) -> None:
     """Move a vertical coordinate until the lowest of some places touches the ground.
 
     Args:
@@ -22,22 +23,26 @@ def stand(model: Any, data: Any, lift: int, touching: tuple[Touching, ...]) -> N
         data: MuJoCo's data.
         lift: The index of the coordinate.
         touching: The places.
+        relief: The height of uneven ground; None if MuJoCo's model has the ground itself.
 
     Raises:
         SimulationFailed: There is no place, or no ground below one.
     """
     mujoco.mj_kinematics(model, data)
-    gaps = [_gap(model, data, place) for place in touching]
+    gaps = [_gap(model, data, place, relief) for place in touching]
     if not gaps or not np.all(np.isfinite(gaps)):
         rule = "the initial pose cannot stand: no part of it touches the ground"
         raise SimulationFailed(f"{rule}; add a contact, or set the height in initial:")
     data.qpos[lift] -= min(gaps)
 
 
-def _gap(model: Any, data: Any, place: Touching) -> float:
+def _gap(model: Any, data: Any, place: Touching, relief: Relief | None) -> float:
     """The distance of a place from the ground below it, in m."""
     body = model.body(place.body).id
     center = data.xpos[body] + data.xmat[body].reshape(3, 3) @ np.array(place.position)
+    if relief is not None:
+        height, *rises = relief.at(float(center[0]), float(center[1]))
+        return float(center[2] - height - place.radius * math.hypot(1.0, *rises))
     up = np.array([0.0, 0.0, 1.0])
     above, down = center + _ABOVE * up, -up
     gaps = []

@@ -84,7 +84,7 @@ class Physics:
         for name in self.assembly.lifts:
             place = int(self.model.joint(name).qposadr[0])
             if place not in given["qpos"]:
-                stand(self.model, self.data, place, self.assembly.touching)
+                stand(self.model, self.data, place, self.assembly.touching, self.assembly.relief)
         mujoco.mj_forward(self.model, self.data)
 
     @cached_property

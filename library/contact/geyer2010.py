@@ -1,3 +1,5 @@
+import math
+
 from gaitsim.component import Attachment, Component, Curve, Input, Output, Parameter, Part, State, StepLimit
 
 
@@ -55,10 +57,11 @@ class Geyer2010(Component):
         "terrain",
         "The ground.",
         default="terrain/flat",
-        reads=(("ground_height", "height"),),
+        reads=(("ground_height", "height"), ("gradient", "gradient")),
         sends=(("position", "position"),),
     )
     ground_height = Input("m", "Height of the ground below the point.", default=0)
+    gradient = Input("1", "How much the ground rises there, forwards.", default=0)
     touching = State(levels=("no", "yes"), doc="Whether the point was below the surface one step ago.")
     mode = State(levels=("sliding", "sticking"), doc="Whether the point was sliding or sticking one step ago.")
     held_at = State("m", "Position at which the point sticks.")
@@ -66,9 +69,11 @@ class Geyer2010(Component):
     spring_before = State("N", "Normal force without velocity, one step ago.")
     shear_before = State("N", "Shear force without velocity, one step ago.")
     drag_before = State("N s/m", "Damping along the ground, one step ago.")
+    tilt_before = State("N", "Tilt of the normal force, forwards, one step ago.")
     position = Output("m", "Position of the point along the ground.")
     slip_velocity = Output("m/s", "Velocity of the point along the ground.")
-    height = Output("m", "Height of the point.", usual=(-0.03, 100), possible=(-0.3, 1e4))
+    place_height = Output("m", "Height of the point, from the same zero as heights of the ground.")
+    height = Output("m", "Height of the point above the ground.", usual=(-0.03, 100), possible=(-0.3, 1e4))
     velocity = Output("m/s", "Upward velocity of the point.")
     weight = Output("N", "Weight of the whole model.")
     force = Output("N", "Force of the ground on the point, along the ground's normal; one step old.")
@@ -80,6 +85,7 @@ class Geyer2010(Component):
     spring = Output("N", "Normal force without velocity.")
     shear_spring = Output("N", "Shear force without velocity.")
     drag = Output("N s/m", "Damping along the ground.")
+    tilt = Output("N", "Forward part of the normal force where the ground rises.")
     energy = Output("J", "Elastic energy in the ground, k d^2 / 2 + k_x dx^2 / 2.")
 
     largest_step = StepLimit(
@@ -91,7 +97,7 @@ class Geyer2010(Component):
 
     pressing = Curve(
         "force",
-        "height",
+        "place_height",
         (-0.02, 0.005),
         "Normal force over height, 80 kg.",
         at={"weight": 785},
@@ -103,30 +109,36 @@ class Geyer2010(Component):
         (-0.1, 0.06),
         "Normal force over velocity, 80 kg.",
         at={"weight": 785},
-        each=("height", (-0.005, -0.01)),
+        each=("place_height", (-0.005, -0.01)),
     )
     sticking = Curve(
         "shear_spring",
         "position",
         (-0.08, 0.08),
         "Stiction at rest over the shift from where it touched down, 80 kg.",
-        at={"weight": 785, "height": -0.01, "touching": 1, "mode": 1, "held_at": 0},
+        at={"weight": 785, "place_height": -0.01, "touching": 1, "mode": 1, "held_at": 0},
     )
 
     @staticmethod
     def output(p, u, x, y):
-        depth = max(0.0, u.ground_height - y.height)
+        longer = math.sqrt(1 + u.gradient**2)
+        y.height = (y.place_height - u.ground_height) / longer
+        depth = max(0.0, -y.height)
         y.in_contact = 1.0 if depth > 0 else 0.0
-        y.spring = y.weight / p.sinking * depth
+        pressing = y.weight / p.sinking * depth
+        y.spring = pressing / longer
         spring = x.spring_before if x.stepped == 1 else y.spring
-        y.force = spring * max(0.0, 1 - y.velocity / p.release_velocity)
-        y.friction_force = x.shear_before - x.drag_before * y.slip_velocity
+        share = max(0.0, 1 - y.velocity / p.release_velocity)
+        y.force = spring * share
+        y.tilt = -u.gradient * y.spring * share
+        rubbing = x.shear_before - x.drag_before * y.slip_velocity
+        y.friction_force = x.tilt_before + rubbing
         y.load = y.force / y.weight if y.weight > 0 else 0.0
 
         y.sticks, y.anchor = 1.0, y.position
         if x.touching == 1 and x.mode == 1:
             y.anchor = x.held_at
-            y.sticks = 1.0 if abs(y.friction_force) <= p.static_friction * y.force else 0.0
+            y.sticks = 1.0 if abs(rubbing) <= p.static_friction * y.force else 0.0
         elif x.touching == 1:
             y.sticks = 1.0 if abs(y.slip_velocity) < p.sticking_velocity else 0.0
 
@@ -139,13 +151,14 @@ class Geyer2010(Component):
         elif y.in_contact == 1:
             # Coulomb friction as an implicit damper: it can stop the point at the end of the step, but not reverse it.
             y.drag = p.sliding_friction * y.force / max(abs(y.slip_velocity), p.sticking_velocity)
-        y.energy = 0.5 * (y.spring * depth + stiffness * shift**2 * y.in_contact)
+        y.energy = 0.5 * (pressing * depth + stiffness * shift**2 * y.in_contact)
 
     @staticmethod
     def update(p, u, x, y, dt):
         x.stepped = 1
         x.touching, x.mode, x.held_at = y.in_contact, y.sticks, y.anchor
         x.spring_before, x.shear_before, x.drag_before = y.spring, y.shear_spring, y.drag
+        x.tilt_before = y.tilt
 
     @staticmethod
     def build(p, mj):
@@ -162,11 +175,12 @@ class Geyer2010(Component):
         brake = mj.push(point, axis=(1, 0, 0), suffix="brake", surface="terrain", gain=(0, -1))
         mj.read("position", along, "actuator_length")
         mj.read("slip_velocity", along, "actuator_velocity")
-        mj.read("height", normal, "actuator_length")
+        mj.read("place_height", normal, "actuator_length")
         mj.read("velocity", normal, "actuator_velocity")
         mj.touches(point)
         mj.read_weight("weight")
         mj.apply("spring", normal, "ctrl")
         mj.apply("shear_spring", along, "ctrl")
         mj.apply("drag", brake, "ctrl")
+        mj.tilt(point, surface="terrain", forward="tilt")
         mj.draw_force(point, up="force", forward="friction_force", surface="terrain")

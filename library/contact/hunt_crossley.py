@@ -79,13 +79,15 @@ class HuntCrossley(Component):
         "terrain",
         "The ground.",
         default="terrain/flat",
-        reads=(("ground_height", "height"),),
+        reads=(("ground_height", "height"), ("gradient", "gradient")),
         sends=(("position", "position"),),
     )
     ground_height = Input("m", "Height of the ground below the sphere.", default=0)
+    gradient = Input("1", "How much the ground rises there, forwards.", default=0)
     stepped = State(levels=("no", "yes"), doc="No in the first step, yes afterwards.")
     spring_before = State("N", "Normal force without velocity, one step ago.")
     drag_before = State("N s/m", "Damping along the ground, one step ago.")
+    tilt_before = State("N", "Tilt of the normal force, forwards, one step ago.")
     velocity_before = State("m/s", "Velocity of the center, one step ago.")
     position = Output("m", "Position of the sphere's center along the ground.")
     center_height = Output("m", "Height of the sphere's center.")
@@ -97,6 +99,7 @@ class HuntCrossley(Component):
     weight = Output("N", "Weight of the whole model.")
     spring = Output("N", "Normal force without velocity.")
     drag = Output("N s/m", "Damping along the ground.")
+    tilt = Output("N", "Forward part of the normal force where the ground rises.")
     force = Output("N", "Force of the ground on the sphere, along the ground's normal.")
     friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground.")
     applied_force = Output("N", "Normal force that acted in the previous step.")
@@ -126,7 +129,8 @@ class HuntCrossley(Component):
 
     @staticmethod
     def output(p, u, x, y):
-        y.height = y.center_height - p.radius - u.ground_height
+        longer = math.sqrt(1 + u.gradient**2)
+        y.height = (y.center_height - u.ground_height) / longer - p.radius
         y.in_contact = 1.0 if y.height < 0 else 0.0
         depth = max(0.0, -y.height)
         blend = 1.0
@@ -136,23 +140,26 @@ class HuntCrossley(Component):
             if p.dissipation > 0:
                 going_in = 2 / (3 * p.dissipation) - y.velocity
                 blend = blend * (0.5 + 0.5 * math.tanh(p.release_blend * going_in))
-        y.spring = 4 / 3 * p.stiffness * math.sqrt(p.radius) * (depth / 2) ** 1.5 * blend
-        y.energy = 0.4 * y.spring * depth
+        pressing = 4 / 3 * p.stiffness * math.sqrt(p.radius) * (depth / 2) ** 1.5 * blend
+        y.energy = 0.4 * pressing * depth
+        y.spring = pressing / longer
         rate = 1.5 * p.dissipation
         change = y.velocity - x.velocity_before if x.stepped == 1 else 0.0
         y.force = y.spring * max(0.0, 1 - rate * (y.velocity + 0.5 * change))
+        y.tilt = -u.gradient * y.force
         y.load = y.force / y.weight if y.weight > 0 else 0.0
         speed = abs(y.slip_velocity)
         peak = 2 * (p.static_friction - p.dynamic_friction) / (1 + (speed / p.transition_velocity) ** 2)
         y.drag = y.force * ((p.dynamic_friction + peak) / max(speed, p.transition_velocity) + p.viscous_friction)
-        y.friction_force = -y.drag * y.slip_velocity
+        y.friction_force = y.tilt - y.drag * y.slip_velocity
         y.applied_force = x.spring_before * max(0.0, 1 - rate * y.velocity)
-        y.applied_friction_force = -x.drag_before * y.slip_velocity
+        y.applied_friction_force = x.tilt_before - x.drag_before * y.slip_velocity
 
     @staticmethod
     def update(p, u, x, y, dt):
         x.stepped = 1
         x.spring_before, x.drag_before, x.velocity_before = y.spring, y.drag, y.velocity
+        x.tilt_before = y.tilt
 
     @staticmethod
     def build(p, mj):
@@ -170,4 +177,5 @@ class HuntCrossley(Component):
         mj.read_weight("weight")
         mj.apply("spring", normal, "ctrl")
         mj.apply("drag", brake, "ctrl")
+        mj.tilt(center, surface="terrain", forward="tilt")
         mj.draw_force(center, up="force", forward="friction_force", surface="terrain")

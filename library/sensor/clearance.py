@@ -10,10 +10,11 @@ class Clearance(Component):
         "The ground.",
         default="terrain/flat",
         reads=(("ground_height", "height"),),
-        sends=(("position", "position"),),
+        sends=(("position", "position"), ("side_position", "side_position")),
     )
     ground_height = Input("m", "Height of the ground below the frame.", default=0)
     position = Output("m", "Position of the frame along the ground.")
+    side_position = Output("m", "Position of the frame to the left.")
     place_height = Output("m", "Height of the frame, from the same zero as heights of the ground.")
     height = Output("m", "Height of the frame above the ground.")
 
@@ -25,4 +26,5 @@ class Clearance(Component):
     def build(p, mj):
         place = mj.position_of(mj.attached("frame"), surface="terrain")
         mj.read("position", place, "sensordata", 0)
+        mj.read("side_position", place, "sensordata", 1)
         mj.read("place_height", place, "sensordata", 2)

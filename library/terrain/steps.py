@@ -28,14 +28,19 @@ class Steps(Component):
         source="definition: level ground",
     )
     position = Input("m", "Position along the ground.", default=0)
+    side_position = Input("m", "Position to the left.", default=0)
     height = Output("m", "Height of the ground there.")
     slope = Output("rad", "Slope of the ground in the forward direction.")
+    gradient = Output("1", "How much the height grows with the position; always 0.")
+    side_gradient = Output("1", "How much the height grows to the left; always 0.")
 
     @staticmethod
     def output(p, u, x, y):
         climbed = whole((u.position - p.first) / p.run) + 1
         y.height = p.rise * min(whole(p.count), max(0.0, climbed))
         y.slope = p.angle
+        y.gradient = 0.0
+        y.side_gradient = 0.0
 
     @staticmethod
     def build(p, mj):

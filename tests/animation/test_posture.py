@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import mujoco
 import numpy as np
 import pytest
 
@@ -83,3 +84,18 @@ def test_the_nearest_recorded_instant_is_taken() -> None:
 def test_without_an_instant_there_is_no_posture(leg: Posture) -> None:
     with pytest.raises(CannotAnimate, match="no motion was recorded"):
         Posture(leg.stage, Trajectory(np.zeros(0), (), (), np.zeros((0, 0))))
+
+
+def test_uneven_ground_is_drawn_as_high_as_it_is() -> None:
+    rough = "{use: terrain/rough, amplitude: 5 cm, cell: 40 cm, first: -9 m}"
+    replay = run_of_text(SLOPE.replace("{use: terrain/slope, angle: 30 deg}", rough))
+    stage = stage_of(replay.model)
+    posture = Posture(stage, replay.trajectory)
+    posture.take(0)
+    mechanics, drawn = stage.mechanics, stage.mechanics.geom("gaitsim.relief").id
+    (plane,) = (g for g in range(mechanics.ngeom) if mechanics.geom(g).name == "world.ground")
+    above, down, none = np.array([replay.trajectory["root.x"][0], 0.0, 9.0]), np.array([0, 0, -1.0]), np.zeros(3)
+    depth = mujoco.mj_rayHfield(mechanics, posture.data, drawn, above, down, none)
+    assert 9 - depth == pytest.approx(replay.trajectory["foot.terrain.height"][0], abs=5e-4)
+    assert abs(9 - depth) > 1e-3
+    assert posture.data.geom_xpos[plane][2] < -0.03

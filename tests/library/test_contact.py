@@ -172,7 +172,7 @@ def test_stiction_and_sliding_of_geyer2010(mode: Mode) -> None:
     tables = Trial(primitive("contact/geyer2010"))
 
     def step(position: float, slip: float, height: float = -0.01) -> Any:
-        tables.put({"position": position, "slip_velocity": slip, "height": height, "weight": WEIGHT})
+        tables.put({"position": position, "slip_velocity": slip, "place_height": height, "weight": WEIGHT})
         assert not tables.call("output", mode)
         assert not tables.call("update", mode)
         return tables.y

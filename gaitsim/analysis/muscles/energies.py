@@ -123,9 +123,11 @@ def _work_of_contact(replay: Replay, part: Part) -> Floats:
         return _applied(replay, f"{own}.applied_force", f"{own}.velocity") + _applied(
             replay, f"{own}.applied_friction_force", f"{own}.slip_velocity"
         )
-    done = work_done(-signal[f"{own}.force"], signal[f"{own}.height"])
-    if "slip_velocity" in part.type.outputs:
-        done = done + _integral(signal[f"{own}.friction_force"] * signal[f"{own}.slip_velocity"], times)
+    height = next(name for name in ("place_height", "center_height", "height") if name in part.type.outputs)
+    done = work_done(-signal[f"{own}.force"], signal[f"{own}.{height}"])
+    for force, slip in (("friction_force", "slip_velocity"), ("side_force", "side_slip_velocity")):
+        if slip in part.type.outputs:
+            done = done + _integral(signal[f"{own}.{force}"] * signal[f"{own}.{slip}"], times)
     return done
 
 

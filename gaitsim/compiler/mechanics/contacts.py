@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import mujoco
 
+from gaitsim.compiler.mechanics.actuators import Actuators
 from gaitsim.compiler.mechanics.ground import add_ground, add_surface
-from gaitsim.compiler.mechanics.places import Point, Touching, Vector
+from gaitsim.compiler.mechanics.places import Point, Relief, Touching, Vector
+from gaitsim.compiler.mechanics.ports import Ports
 from gaitsim.compiler.mechanics.sensors import Sensors
 from gaitsim.compiler.mechanics.ties import Element
 
 
-class Contacts(Sensors):
+class Contacts(Actuators, Sensors, Ports):
     """Verbs for the ground and for contacts with it."""
 
-    def ground(self, angle: float = 0.0, edges: Sequence[tuple[float, float]] = (), across: float = 0.0) -> None:
+    def ground(
+        self,
+        angle: float = 0.0,
+        edges: Sequence[tuple[float, float]] = (),
+        across: float = 0.0,
+        relief: tuple[Callable[..., Sequence[float]], tuple[float, ...]] | None = None,
+    ) -> None:
         """Make the ground of the whole model.
 
         `push` and `position_of` of the part around this one count from this ground if they name this part.
@@ -24,7 +32,11 @@ class Contacts(Sensors):
             angle: The slope forwards, in rad.
             edges: Steps: positions along the ground and the heights behind them, in m.
             across: The slope to the left, in rad, about the direction forwards along the ground.
+            relief: For level ground with bumps, a function and its first arguments; two more are a place, forwards and
+                to the left. It gives the height there in m, and how much it grows in either direction.
         """
+        if relief is not None:
+            self.made.reliefs[self._name("surface")] = Relief(*relief)
         self.made.across = self.made.across or across != 0
         add_surface(self.spec, self._name("surface"), angle, across, self._info)
         add_ground(self.spec, angle, across, edges, self._info)
@@ -64,6 +76,26 @@ class Contacts(Sensors):
         made = self.spec.sensor(sensor.name)
         made.intprm = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]  # the force alone, net of all contacts
         return sensor
+
+    def tilt(self, place: Point, surface: str, forward: str, left: str | None = None) -> None:
+        """Push a place along the ground of an inner part by outputs in N, if that ground rises from place to place.
+
+        Other ground gets no actuators for this.
+
+        Args:
+            place: The place.
+            surface: The inner part that makes the ground.
+            forward: The output with the force forwards along the mean ground.
+            left: The output with the force to the left.
+        """
+
+        def push() -> None:
+            if self._name(f"{surface}.surface") in self.made.reliefs:
+                for port, axis, suffix in ((forward, (1, 0, 0), "tilt"), (left, (0, 1, 0), "side_tilt")):
+                    if port is not None:
+                        self.apply(port, self.push(place, axis, suffix=suffix, surface=surface), "ctrl")
+
+        self.made.later.append(push)
 
     def touches(self, place: Point, radius: float = 0.0) -> None:
         """Declare that the ground carries the body at a point, or at a sphere with a radius in m."""

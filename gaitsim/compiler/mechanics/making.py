@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Touching, Vector
+from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Relief, Touching, Vector
 from gaitsim.compiler.mechanics.ties import Tie
 from gaitsim.model import Part
 
@@ -23,6 +23,8 @@ class Made:
     touching: list[Touching] = field(default_factory=list)
     carried: dict[int, str] = field(default_factory=dict)  # parts that touch the ground: the body they are on
     across: bool = False  # whether there is ground that rises to a side
+    reliefs: dict[str, Relief] = field(default_factory=dict)  # uneven ground by the site of its surface
+    later: list[Callable[[], None]] = field(default_factory=list)  # what is made once all parts were built
     collided: list[int] = field(default_factory=list)  # parts that MuJoCo keeps out of the ground
     pushed: dict[int, list[Vector]] = field(default_factory=dict)  # axes along which parts push
     lifts: list[str] = field(default_factory=list)

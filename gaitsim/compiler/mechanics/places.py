@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -34,6 +34,25 @@ class Touching:
     body: str
     position: tuple[float, float, float]
     radius: float
+
+
+@dataclass(frozen=True)
+class Relief:
+    """Ground whose height varies from place to place, above a level plane.
+
+    Attributes:
+        surface: The function of its numbers and of a place, forwards and to the left in m. Its results are the height
+            in m, and how much it grows in either direction.
+        numbers: The first arguments of that function.
+    """
+
+    surface: Callable[..., Sequence[float]]
+    numbers: tuple[float, ...]
+
+    def at(self, forward: float, left: float) -> tuple[float, float, float]:
+        """The height at a place in m, and how much it grows forwards and to the left."""
+        height, rise, side_rise = self.surface(*self.numbers, forward, left)
+        return height, rise, side_rise
 
 
 @dataclass(frozen=True)

@@ -33,14 +33,25 @@ def check_friction(model: Model, spec: Any, made: Made) -> None:
     faults.raise_if_any()
 
 
-def check_slopes(model: Model, made: Made) -> None:
-    """Check that the spheres of MuJoCo are on ground that rises straight ahead, because their forces are reported
-    along it.
+def check_grounds(model: Model, made: Made) -> None:
+    """Check that there is one ground, and that the spheres of MuJoCo are on one that rises straight ahead, because
+    their forces are reported along it.
 
     Raises:
-        InvalidSpec: The ground of a sphere also rises to the side.
+        InvalidSpec: There are two grounds, or the ground of a sphere is uneven or rises to the side as well.
     """
     faults = Faults()
+    uneven = {name.rpartition(".")[0] for name in made.reliefs}
+    grounds = [part for part in model.parts if part.type.kind == "terrain"]
+    if made.reliefs and (len(set(made.reliefs.values())) > 1 or {part.address for part in grounds} - uneven):
+        part = next((part for part in grounds if part.address not in uneven), grounds[-1])
+        rule = "a model has one ground, and another contact has a different one; write one for all"
+        faults.add(f"{rule}: use_for: {{terrain: {{use: terrain/rough}}}}.", part.mark, part.address)
+    for part in (model.parts[index] for index in made.collided if uneven):
+        rule = f"{part.type.reference} collides with even ground only, and this is uneven"
+        faults.add(
+            f"{rule}; choose a contact with a law of its own, such as contact/hunt_crossley.", part.mark, part.address
+        )
     for part in (model.parts[index] for index in made.collided if made.across):
         rule = f"{part.type.reference} reports its force along ground that rises straight ahead, and this rises across"
         faults.add(f"{rule}; choose contact/spatial_hunt_crossley.", part.mark, part.address)

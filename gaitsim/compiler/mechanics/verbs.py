@@ -17,7 +17,7 @@ from gaitsim.compiler.mechanics.sensors import Sensors
 from gaitsim.model import Part
 
 
-class Mechanics(Bodies, Joints, Paths, Actuators, Contacts, Sensors, Ports, Drawings):
+class Mechanics(Bodies, Joints, Paths, Contacts, Actuators, Sensors, Ports, Drawings):
     """The MuJoCo side of one part."""
 
 
