@@ -86,6 +86,9 @@ class Prescribed(Component):
             raise Refused(
                 f"motion ends {math.degrees(gap):.3g} deg from where it begins; a cycle begins anew where it ends"
             )
+        mj.agree(
+            "period", p.period, "s", "joints that follow one recorded walk repeat together, so write the same value"
+        )
         joint = mj.hinge(axis=(0, 1 if p.grows == "backwards" else -1, 0), neutral=p.neutral, armature=p.armature)
         place = 100 * (p.first_phase % 1)
         i = int(place)

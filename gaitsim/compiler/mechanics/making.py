@@ -8,6 +8,7 @@ from typing import Any
 
 from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Relief, Touching, Vector
 from gaitsim.compiler.mechanics.ties import Tie
+from gaitsim.component import Refused
 from gaitsim.model import Part
 
 
@@ -29,6 +30,7 @@ class Made:
     pushed: dict[int, list[Vector]] = field(default_factory=dict)  # axes along which parts push
     lifts: list[str] = field(default_factory=list)
     begins: list[tuple[str, float, float]] = field(default_factory=list)
+    agreed: dict[str, tuple[str, float]] = field(default_factory=dict)  # what one part said first, and how much
 
 
 @dataclass
@@ -63,6 +65,12 @@ class Making:
         """The place of an attachment of the part, with an offset in m."""
         at = self.frames.point(self.part.attachments[name], self.beside.get(name, (0, 0, 0)))
         return Point(at.body, _sum(at.position, self._mirrored(offset)))
+
+    def agree(self, what: str, value: float, unit: str, reason: str) -> None:
+        """Refuse a value that differs from what another part of the model gave for the same thing."""
+        other, first = self.made.agreed.setdefault(what, (self.part.address, value))
+        if value != first:
+            raise Refused(f"{what} is {value:g} {unit} here but {first:g} {unit} in {other}; {reason}")
 
     def _site(self, suffix: str, point: Point, radius: float = 0.005) -> str:
         name = self._name(suffix)
