@@ -22,6 +22,13 @@ def limit(
         list[str] | None,
         typer.Option(metavar="ADDRESS=FROM:TO", help="Address and range; the first end must succeed; repeatable."),
     ] = None,
+    over: Annotated[
+        str | None,
+        typer.Option(
+            metavar="ADDRESS=VALUES",
+            help="Find all limits at each value of another number, as 0 deg,30 deg or as low:high:count.",
+        ),
+    ] = None,
     until: Annotated[
         str | None,
         typer.Option(metavar="METRIC=VALUE", help="Limit of a metric (default: the run must complete)."),
@@ -56,11 +63,16 @@ def limit(
 
     Each --vary is varied alone: first a scan of its range, then bisection at the first failure.
 
+    With --over, limits over an angle become a polar figure: gaitsim analyze RESULT.
+
     Every run is saved as it ends, and what was interrupted can continue.
 
     Examples:
 
     gaitsim limit specs/walking_geyer2010_perturbed.yaml --vary push.strength='0 N:1000 N'
+
+    gaitsim limit specs/walking_song2015_perturbed.yaml --vary push.strength='0 N:600 N'
+    --over push.azimuth='0 deg:330 deg:12'
 
     gaitsim limit results/2026-11-22-walking_geyer2010_perturbed-3f9c --resume
     """
@@ -68,7 +80,15 @@ def limit(
 
     opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
     talk = console.ConsoleListener(json)
-    asked = {"vary": vary, "until": until, "tolerance": tolerance, "points": points, "mode": mode, "from": origin}
+    asked = {
+        "vary": vary,
+        "over": over,
+        "until": until,
+        "tolerance": tolerance,
+        "points": points,
+        "mode": mode,
+        "from": origin,
+    }
     runs = begun_or_resumed(opened, asked, resume, None if no_save else results_folder(results), talk)
     try:
         runs.run(talk)
@@ -86,13 +106,13 @@ def _report(runs: LimitRuns, folder: Path | None, json: bool) -> None:
         console.give_json({"limits": rows, "mode": runs.mode, "result": str(folder) if folder else None})
         return
     columns = ["address", "from", "to", "last that holds", "first that does not", "how that ends", "runs"]
-    console.give_table(columns, [_row(limit, runs) for limit in runs.limits])
+    console.give_table([*runs.over, *columns], [_row(limit, runs) for limit in runs.limits])
     for limit in runs.limits:
         if limit.first is None:
-            console.say(f"{limit.address}: it holds up to {limit.at(1)}; to find a limit, go further.")
+            console.say(f"{limit.name}: it holds up to {limit.at(1)}; to find a limit, go further.")
         if limit.beyond:
             tried = ", ".join(limit.beyond)
-            console.say(f"{limit.address}: beyond its first limit it holds again at {tried}; there is no one limit.")
+            console.say(f"{limit.name}: beyond its first limit it holds again at {tried}; there is no one limit.")
     if folder:
         console.say(f"saved in {folder}; see a run: {command('run', folder, '--candidate', 'NUMBER')}")
 
@@ -100,12 +120,14 @@ def _report(runs: LimitRuns, folder: Path | None, json: bool) -> None:
 def _row(limit: Limit, runs: LimitRuns) -> tuple[str, ...]:
     ending = runs.until.said(limit.ending) if limit.ending else "-"
     count = str(len(limit.outcomes))
-    return limit.address, limit.at(0), limit.at(1), limit.last, limit.first or "-", ending, count
+    ends = limit.at(0), limit.at(1), limit.last, limit.first or "-"
+    return *limit.beside.values(), limit.address, *ends, ending, count
 
 
 def _data(limit: Limit, runs: LimitRuns) -> dict[str, Any]:
     return {
         "address": limit.address,
+        "over": dict(limit.beside),
         "from": limit.at(0),
         "to": limit.at(1),
         "last": limit.last,

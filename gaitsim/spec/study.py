@@ -66,7 +66,7 @@ def variants(document: MappingNode, vary: Sequence[str]) -> list[Variant]:
         Usage: A `--vary` is not a list of values.
         InvalidSpec: The study has a fault.
     """
-    columns = [_column(text) for text in vary]
+    columns = [column(text) for text in vary]
     base = without(document, "study")
     rows: list[Variant] = []
     for start in _table(document.entries.get("study"), document.keys.get("study"), base, "study"):
@@ -115,27 +115,31 @@ def _text(node: Node) -> str:
     return dump({"x": plain(node)}).removeprefix("x:").strip()
 
 
-def _column(text: str) -> tuple[str, list[str]]:
-    """An address and its values: `gain=1:15:20` (first, last, count) or `step=1 ms,0.5 ms`."""
-    address, values = split_setting(text, "--vary")
+def column(text: str, option: str = "--vary") -> tuple[str, list[str]]:
+    """An address and its values: `gain=1:15:20` (first, last, count) or `step=1 ms,0.5 ms`.
+
+    Raises:
+        Usage: The text is not of this form, or its units do not fit.
+    """
+    address, values = split_setting(text, option)
     pieces = [piece.strip() for piece in values.split(":")]
     if len(pieces) == 3:
-        return address, _range(pieces, text)
+        return address, _range(pieces, text, option)
     if len(pieces) != 1:
-        raise Usage(f"--vary {text}: a range is low:high:count, such as gain=1:15:20.")
+        raise Usage(f"{option} {text}: a range is low:high:count, such as gain=1:15:20.")
     # Commas within brackets belong to the value.
     return address, [piece.strip() for piece in re.split(r",(?![^\[{]*[\]}])", values)]
 
 
-def _range(pieces: list[str], text: str) -> list[str]:
+def _range(pieces: list[str], text: str, option: str) -> list[str]:
     count = int(pieces[2]) if pieces[2].isdigit() else 0
-    span = _span(pieces[0], pieces[1], text)
+    span = _span(pieces[0], pieces[1], text, option)
     if span is None or not 1 <= count <= _RANGE_LIMIT:
-        raise Usage(f"--vary {text}: a range is low:high:count, such as gain=1:15:20.")
+        raise Usage(f"{option} {text}: a range is low:high:count, such as gain=1:15:20.")
     return [span.at(i / max(1, count - 1)) for i in range(count)]
 
 
-def _span(low: str, high: str, text: str) -> Span | None:
+def _span(low: str, high: str, text: str, option: str = "--vary") -> Span | None:
     """The range between two values; None if one of them is not a number.
 
     Raises:
@@ -145,13 +149,13 @@ def _span(low: str, high: str, text: str) -> Span | None:
         first, last = parse_quantity(low), parse_quantity(high)
     except UnknownUnit as error:
         letters = in_plain_letters(low) or in_plain_letters(high)
-        raise Usage(f"--vary {text}: {letters or unknown_unit(str(error))}") from error
+        raise Usage(f"{option} {text}: {letters or unknown_unit(str(error))}") from error
     if first is None or last is None:
         letters = in_plain_letters(high if first else low)
         if letters:
-            raise Usage(f"--vary {text}: {letters}")
+            raise Usage(f"{option} {text}: {letters}")
         return None
     if first.unit.text != last.unit.text and first.unit.dimension != last.unit.dimension:
-        raise Usage(f"--vary {text}: both ends need the same unit, such as 1 ms:5 ms:3.")
+        raise Usage(f"{option} {text}: both ends need the same unit, such as 1 ms:5 ms:3.")
     factor = first.unit.factor
     return Span(first.value / factor, last.value / factor, first.unit.text)

@@ -26,7 +26,8 @@ def begun_or_resumed(
 
     Args:
         opening: The spec, or the result that is continued.
-        asked: The words vary, until, tolerance, points, mode and from, as of `hunted`; None for each that is not given.
+        asked: The words vary, over, until, tolerance, points, mode and from, as of `hunted`; None for each that is not
+            given.
         resume: Whether limits are continued.
         root: Where a new result goes; None keeps nothing.
         listener: Hears what a reader should know.
@@ -45,4 +46,4 @@ def begun_or_resumed(
         raise Usage(f"{rule}, or --resume a result.")
     scan = Scan(**{name: asked[name] for name in ("points", "tolerance") if asked[name] is not None})
     mode: Mode = "normal" if asked["mode"] == "normal" else "rapid"
-    return limit_runs(opening, asked["vary"], asked["until"], scan, asked["from"], mode, root, listener)
+    return limit_runs(opening, asked["vary"], asked["over"], asked["until"], scan, asked["from"], mode, root, listener)

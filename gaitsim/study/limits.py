@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -10,81 +9,25 @@ from typing import Any
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from gaitsim.errors import Fault, Mark, SimulationFailed, Usage, did_you_mean
+from gaitsim.errors import Fault, Mark, SimulationFailed, Usage
 from gaitsim.model import Model
 from gaitsim.optimization.limit import Bracket
 from gaitsim.results.manifest import BadResult, changed_versions
 from gaitsim.results.rows import outcome_of, read_rows
+from gaitsim.results.until import Until, until_of
 from gaitsim.simulation.batch import run_all
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode
-from gaitsim.spec.inheritance import override, split_setting
-from gaitsim.spec.study import Span, span
+from gaitsim.spec.inheritance import override
+from gaitsim.spec.study import Span, column, span
 from gaitsim.study.keeping import Keeping
 from gaitsim.study.listening import Listener
 from gaitsim.study.opened import Opened
 from gaitsim.study.opening import Opening, only_row, started_from
 from gaitsim.study.starts import Starts
 from gaitsim.text.document import MappingNode
-from gaitsim.text.quantity import BadQuantity, quantity_of
-from gaitsim.units import parse_unit, with_unit
 
 _FINEST = 1e-6
-
-
-@dataclass(frozen=True)
-class Until:
-    """What ends a range: runs that do not complete, or a metric that reaches a value.
-
-    Attributes:
-        value: In the unit of the metric.
-    """
-
-    metric: str = ""
-    value: float = math.nan
-    unit: str = "1"
-
-    def holds(self, outcome: Outcome, at_first: Outcome) -> bool:
-        """Whether a run still succeeds, given the run at the first end of the range. A failed run never does."""
-        if outcome.status == "failed" or not self.metric:
-            return outcome.status == "completed"
-        side = self._distance(at_first)
-        return side * self._distance(outcome) > 0
-
-    def said(self, outcome: Outcome) -> str:
-        """How a run ended, in words."""
-        if outcome.status == "failed":
-            return f"failed: {outcome.reason}"
-        if self.metric:
-            return f"{self.metric} = {with_unit(f'{outcome.metrics.get(self.metric, math.nan):.5g}', self.unit)}"
-        if outcome.status == "stopped":
-            return f"{outcome.reason} at {outcome.simulated_seconds:.4g} s"
-        return outcome.status
-
-    def _distance(self, outcome: Outcome) -> float:
-        return outcome.metrics.get(self.metric, math.nan) - self.value
-
-
-def until_of(text: str | None, model: Model) -> Until:
-    """Read `--until METRIC=VALUE`.
-
-    Raises:
-        Usage: It is not of this form, or there is no such metric.
-    """
-    if text is None:
-        if not any(part.measure and "stop" in part.type.outputs for part in model.parts):
-            rule = "no measure of this spec ends a run"
-            raise Usage(f"{rule}; say what does: --until METRIC=VALUE, or add one such as use: measure/fall.")
-        return Until()
-    metric, value = split_setting(text, "--until")
-    if metric not in model.metrics:
-        raise Usage(f"--until {text}: {metric} is not a metric of this spec. {did_you_mean(metric, model.metrics)}")
-    unit = parse_unit(model.metrics[metric])
-    try:
-        quantity = quantity_of(value, unit.text)
-    except BadQuantity as error:
-        raise Usage(f"--until {text}: {error}") from error
-    return Until(metric, quantity.value / unit.factor, unit.text)
 
 
 @dataclass(frozen=True)
@@ -114,12 +57,22 @@ class Scan:
 
 @dataclass
 class Limit:
-    """One number, its range, and what is known of it."""
+    """One number, its range, and what is known of it.
+
+    Attributes:
+        beside: What is set besides, by address: a value of `--over`.
+    """
 
     address: str
     span: Span
     bracket: Bracket
+    beside: Mapping[str, str] = field(default_factory=dict)
     outcomes: dict[float, Outcome] = field(default_factory=dict)
+
+    @property
+    def name(self) -> str:
+        """The address, and what is set besides."""
+        return " at ".join([self.address, *(f"{address} = {value}" for address, value in self.beside.items())])
 
     def at(self, share: float) -> str:
         """The value at a share of the range, as text for a spec."""
@@ -172,7 +125,7 @@ class LimitRuns:
     rows: list[Row] = field(default_factory=list)
 
     def __repr__(self) -> str:
-        found = "; ".join(f"{limit.address} holds up to {limit.last}" for limit in self.limits)
+        found = "; ".join(f"{limit.name} holds up to {limit.last}" for limit in self.limits)
         return f"<LimitRuns: {found}; {len(self.rows)} runs; {self.folder or 'not kept'}>"
 
     def run(self, listener: Listener) -> None:
@@ -204,13 +157,18 @@ class LimitRuns:
         hear(most, most)
 
     @property
+    def over(self) -> list[str]:
+        """The address of `--over`, if there is one."""
+        return list(self.limits[0].beside)
+
+    @property
     def folder(self) -> Path | None:
         """The result folder; None if the runs were not saved."""
         return self.keeping.folder
 
     def _outcomes(self, asked: Sequence[tuple[Limit, float]], listener: Listener) -> Iterator[Outcome]:
         """The outcomes that are asked for, in order. Those that are known are not run again."""
-        settings = [{**self.settings, limit.address: limit.at(share)} for limit, share in asked]
+        settings = [{**self.settings, **limit.beside, limit.address: limit.at(share)} for limit, share in asked]
         known = [self._known(each) for each in settings]
         missing = [pair for pair, found in zip(asked, known, strict=True) if found is None]
         models = [self._model(limit, share) for limit, share in missing]
@@ -229,7 +187,8 @@ class LimitRuns:
         return next((outcome for each, outcome in self.before if each == settings), None)
 
     def _model(self, limit: Limit, share: float) -> Model:
-        return self.opened.model(override(self.document, limit.address, limit.at(share), "--vary"))
+        document = _with_settings(self.document, limit.beside)
+        return self.opened.model(override(document, limit.address, limit.at(share), "--vary"))
 
     def _check_begun(self) -> None:
         """Refuse ranges whose first value already fails.
@@ -240,7 +199,8 @@ class LimitRuns:
         faults = []
         for limit in self.limits:
             if not limit.bracket.held[0.0]:
-                mark = Mark(f"--vary {limit.address}={limit.at(0)}:{limit.at(1)}")
+                beside = "".join(f" at {address} = {value}" for address, value in limit.beside.items())
+                mark = Mark(f"--vary {limit.address}={limit.at(0)}:{limit.at(1)}{beside}")
                 rule = f"at {limit.at(0)}, where it begins, it does not hold ({self.until.said(limit.outcomes[0.0])})"
                 faults.append(Fault(f"{rule}; begin where it does.", mark))
         if faults:
@@ -250,6 +210,7 @@ class LimitRuns:
 def limit_runs(
     opening: Opening,
     vary: Sequence[str],
+    over: str | None,
     until: str | None,
     scan: Scan,
     origin: str | None,
@@ -262,6 +223,7 @@ def limit_runs(
     Args:
         opening: The spec or result.
         vary: The ranges, each as ADDRESS=FROM:TO.
+        over: Values of another number, as ADDRESS=VALUES, at each of which all limits are found; None for none.
         until: METRIC=VALUE that ends a range; None for a run that does not complete.
         scan: The settings of the search.
         origin: The start, as for `started_from`.
@@ -277,7 +239,7 @@ def limit_runs(
         Untrusted: The result has components that this machine does not trust.
     """
     scan.check()
-    limits = [Limit(*span(text), Bracket(scan.points, scan.tolerance)) for text in vary]
+    limits = _limits(vary, over, scan)
     opened = opening.open()
     if origin is not None:
         if opening.names_result:
@@ -285,7 +247,7 @@ def limit_runs(
             raise Usage(f"--from {origin}: {rule}.")
         opened, notices = started_from(replace(opened, notices=()), opening, origin)
         opened = replace(opened, notices=tuple(notices))
-    asked = {"vary": list(vary), "until": until, "points": scan.points, "tolerance": scan.tolerance}
+    asked = {"vary": list(vary), "over": over, "until": until, "points": scan.points, "tolerance": scan.tolerance}
     return _limit_runs(opened, opening, limits, asked, mode, root, listener)
 
 
@@ -335,10 +297,34 @@ def _recorded(folder: Path, manifest: Mapping[str, Any]) -> tuple[dict[str, Any]
         asked = _Asked.model_validate(manifest["limit"])
         scan = Scan(asked.points, asked.tolerance)
         scan.check()
-        return asked.model_dump(), [Limit(*span(text), Bracket(asked.points, asked.tolerance)) for text in asked.vary]
+        return asked.model_dump(), _limits(asked.vary, asked.over, scan)
     except (ValidationError, Usage) as error:
         rule = "what it says about its limits cannot be read, so it was edited; restore it from a copy"
         raise BadResult(Fault(f"{rule}.", Mark(str(folder / "manifest.json")))) from error
+
+
+def _with_settings(document: MappingNode, settings: Mapping[str, str]) -> MappingNode:
+    """A document with values of `--over`."""
+    for address, value in settings.items():
+        document = override(document, address, value, "--over")
+    return document
+
+
+def _limits(vary: Sequence[str], over: str | None, scan: Scan) -> list[Limit]:
+    """All limits that are asked for: each range at each value of `over`.
+
+    Raises:
+        Usage: A text is not of its form, or one number is in two.
+    """
+    ranges = [span(text) for text in vary]
+    rows: list[dict[str, str]] = [{}]
+    if over is not None:
+        address, values = column(over, "--over")
+        if address in (varied for varied, _ in ranges):
+            rule = f"{address} is varied already; name what its limit is found over, such as push.azimuth"
+            raise Usage(f"--over {over}: {rule}.")
+        rows = [{address: value} for value in values]
+    return [Limit(varied, ends, Bracket(scan.points, scan.tolerance), row) for row in rows for varied, ends in ranges]
 
 
 class _Asked(BaseModel):
@@ -347,6 +333,7 @@ class _Asked(BaseModel):
     model_config = ConfigDict(extra="forbid", strict=True)
 
     vary: list[str]
+    over: str | None = None
     until: str | None
     points: int
     tolerance: float
@@ -367,5 +354,7 @@ def _limit_runs(
     for notice in dict.fromkeys([*opened.notices, *model.notices]):
         listener.say(notice)
     until = until_of(asked["until"], model)
-    keeping = Keeping(root, opened, [model], mode, more={"limit": asked})
+    over = [_with_settings(row.document, limit.beside) for limit in limits]
+    models = [model, *(opened.model(each) for each in over if each is not row.document)]
+    keeping = Keeping(root, opened, models, mode, more={"limit": asked})
     return LimitRuns(opened, row.document, row.settings, limits, until, mode, Starts(opened), keeping)

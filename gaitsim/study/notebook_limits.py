@@ -21,6 +21,7 @@ def limit(
     vary: Mapping[str, str] | None = None,
     set: Settings | None = None,
     *,
+    over: Mapping[str, str] | None = None,
     resume: bool = False,
     until: str | None = None,
     tolerance: float | None = None,
@@ -40,6 +41,7 @@ def limit(
         path: A spec, or a result folder.
         vary: Ranges by address; the first end must succeed: `{"push.strength": "0 N:1000 N"}`.
         set: Values by address.
+        over: Values of one other number, at each of which the limits are found: `{"push.azimuth": "0 deg:330 deg:12"}`.
         resume: Whether to continue the limits that the result at `path` began; leave out all that it says itself.
         until: METRIC=VALUE that ends a range; None for a run that does not complete.
         tolerance: The precision, as a share of the range; None for 0.01.
@@ -54,15 +56,23 @@ def limit(
         library: Folders of more components.
 
     Returns:
-        The limits: `limits`, each with `address`, `last` (succeeds), `first` (fails; None if all succeed) and `beyond`;
-            `rows` has
-        every run.
+        The limits: `limits`, each with `address`, `beside` (the value of `over`), `last` (succeeds), `first` (fails;
+            None if all succeed) and `beyond`; `rows` has every run.
     """
     from gaitsim.study.begun_limits import begun_or_resumed
 
     opened = opening(path, set, library, start, trust, candidate, results)
     ranges = [f"{address}={ends}" for address, ends in vary.items()] if vary is not None else None
-    asked = {"vary": ranges, "until": until, "tolerance": tolerance, "points": points, "mode": mode, "from": origin}
+    at = next((f"{address}={values}" for address, values in over.items()), None) if over else None
+    asked = {
+        "vary": ranges,
+        "over": at,
+        "until": until,
+        "tolerance": tolerance,
+        "points": points,
+        "mode": mode,
+        "from": origin,
+    }
     root = results_folder(None if results is None else Path(results)) if save else None
     runs = begun_or_resumed(opened, asked, resume, root, LogListener())
     runs.run(LogListener())

@@ -1,3 +1,5 @@
+import math
+
 from gaitsim.component import Attachment, Component, Input, Option, Output, Parameter, State
 
 from ._pulse import share_at_start, share_of_step
@@ -11,6 +13,13 @@ class Push(Component):
 
     frame = Attachment("The frame on which the force acts.")
     direction = Option("Direction in the world frame.", choices=("forward", "left", "up"), default="forward")
+    azimuth = Parameter(
+        "deg",
+        "Turn of the direction to the left, about the upward axis.",
+        default=0,
+        bounds=(-360, 360),
+        source="definition: along the axis",
+    )
     strength = Parameter("N", "Force; negative for the opposite direction.", bounds=(-1e5, 1e5))
     duration = Parameter("s", "Duration of the pulse.", bounds=(0, 1e4))
     onset = Parameter(
@@ -48,5 +57,7 @@ class Push(Component):
 
     @staticmethod
     def build(p, mj):
-        axis = {"forward": (1, 0, 0), "left": (0, 1, 0), "up": (0, 0, 1)}[p.direction]
+        x, y, z = {"forward": (1, 0, 0), "left": (0, 1, 0), "up": (0, 0, 1)}[p.direction]
+        cosine, sine = math.cos(p.azimuth), math.sin(p.azimuth)
+        axis = (x * cosine - y * sine, x * sine + y * cosine, z)
         mj.apply("force", mj.push(mj.attached("frame"), axis=axis), "ctrl")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import subprocess
 import sys
 import time
@@ -123,6 +124,47 @@ def test_a_result_can_be_looked_through(spec: Path, capsys: pytest.CaptureFixtur
     folder = json.loads(gaitsim(capsys, "run", str(spec), "--json").out)["result"]
     (found,) = limits(gaitsim(capsys, "limit", folder, "--vary", f"{HEIGHT}=2 m:1 m", "--no-save", "--json"))
     assert number(found["last"]) == pytest.approx(1.22, abs=0.01)
+
+
+PUSHED = """
+gaitsim: 1
+parts:
+  stone: {use: segment/point_mass, mass: 1 kg}
+  guide: {use: joint/planar, parent: world, child: stone.center}
+  push: {use: perturbation/push, frame: stone.center, strength: 0 N, onset: 0.1 s, duration: 0.1 s}
+initial: {guide.z: 2 m}
+measures:
+  way: {use: measure/range, signal: {from: guide.x}}
+simulate: {duration: 0.5 s, step: 1 ms}
+"""
+EVERY_WAY = ("--vary", "push.strength=0 N:20 N", "--over", "push.azimuth=0 deg:300 deg:6", "--until", "way=10 cm")
+
+
+def test_limits_over_another_number_are_found_at_each_of_its_values(
+    spec: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    spec.write_text(PUSHED)
+    whole = json.loads(gaitsim(capsys, "limit", str(spec), *EVERY_WAY, "--json").out)
+    # Half a pulse passes before the impulse F t: the stone goes F t (T - 0.15 s).
+    straight = 0.1 / (0.1 * 0.35)
+    for found, azimuth in zip(whole["limits"], range(0, 360, 60), strict=True):
+        assert found["over"] == {"push.azimuth": f"{azimuth}.0 deg"}
+        exact = straight / abs(math.cos(math.radians(azimuth)))
+        assert number(found["last"]) <= exact * 1.001 and number(found["first"]) >= exact * 0.999
+    folder = Path(whole["result"])
+    first, second = folder / "evaluations.jsonl", folder / "manifest.json"
+    first.write_bytes(b"".join(first.read_bytes().splitlines(keepends=True)[:20]))
+    second.write_text(second.read_text().replace('"complete"', '"running"'))
+    assert json.loads(gaitsim(capsys, "limit", str(folder), "--resume", "--json").out) == whole
+
+
+def test_the_table_of_limits_over_another_number(spec: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    words = ["--vary", f"{HEIGHT}=2 m:4 m", "--over", "simulate.duration=0.1 s,0.2 s", "--points", "2", "--no-save"]
+    said = gaitsim(capsys, "limit", str(spec), *words)
+    title, row, _ = (" ".join(line.split()) for line in said.out.splitlines())
+    assert title.startswith("simulate.duration address from to last that holds")
+    assert row == f"0.1 s {HEIGHT} 2.0 m 4.0 m 4.0 m - - 2"
+    assert f"{HEIGHT} at simulate.duration = 0.2 s: it holds up to 4.0 m; to find a limit, go further." in said.err
 
 
 RANGES = ("--vary", f"{HEIGHT}=2 m:0 m", "--vary", "simulate.duration=0.1 s:1.1 s")
@@ -285,6 +327,33 @@ FINE = ("--vary", "stone.mass=1 kg:2 kg")
             2,
             "no measure of this spec ends a run; say what does: --until METRIC=VALUE, "
             "or add one such as use: measure/fall.",
+        ),
+        (
+            (*FINE, "--over", "stone.mass=1 kg,2 kg"),
+            2,
+            "--over stone.mass=1 kg,2 kg: stone.mass is varied already; name what its limit is found over, such as "
+            "push.azimuth.",
+        ),
+        (
+            (*FINE, "--over", f"{HEIGHT}=1 m:2 m"),
+            2,
+            f"--over {HEIGHT}=1 m:2 m: a range is low:high:count, such as gain=1:15:20.",
+        ),
+        (
+            (*FINE, "--over", f"{HEIGHT}=1 m:2 s:3"),
+            2,
+            f"--over {HEIGHT}=1 m:2 s:3: both ends need the same unit, such as 1 ms:5 ms:3.",
+        ),
+        (
+            (*FINE, "--over", "stone.azimuth=0 deg,30 deg"),
+            3,
+            "--over stone.azimuth=0 deg: stone: segment/point_mass has no azimuth. Known here: mass, radius.",
+        ),
+        (
+            ("--vary", f"{HEIGHT}=2 m:1 m", "--over", "simulate.duration=0.5 s,1 s"),
+            4,
+            f"--vary {HEIGHT}=2.0 m:1.0 m at simulate.duration = 1 s: at 2.0 m, where it begins, it does not hold "
+            "(landed at 0.64 s); begin where it does.",
         ),
         ((*FINE, "--points", "1"), 2, "--points 1: a scan has at least 2 values, the two ends."),
         (

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 import pytest
 
@@ -95,3 +97,30 @@ def test_the_impulse_is_exact_at_any_step(dt: float) -> None:
     values = {"strength": 10.0, "onset": 0.0123, "duration": 0.0318}
     found = played("perturbation/push", {"event": [0] * int(0.1 / dt + 2)}, "rapid", dt=dt, **values)
     assert np.sum(found["force"]) * dt == pytest.approx(0.318, rel=1e-9)
+
+
+SPACE = """
+gaitsim: 1
+parts:
+  block: {use: segment/spatial, mass: 10 kg, inertia_forward: 1 kg m^2, inertia_left: 1 kg m^2, inertia_up: 1 kg m^2}
+  root: {use: joint/spatial, parent: world, child: block.center, pose: free}
+  push: {use: perturbation/push, frame: block.center, direction: WAY, azimuth: AZIMUTH, strength: 50 N, onset: 0 s,
+    duration: 0.1 s}
+simulate: {duration: 0.2 s, step: 1 ms, gravity: 0 m/s^2}
+"""
+
+
+@pytest.mark.parametrize(
+    ("way", "azimuth", "velocity"),
+    [
+        ("forward", 0, (0.5, 0, 0)),
+        ("forward", 90, (0, 0.5, 0)),
+        ("forward", -30, (0.5 * math.cos(math.pi / 6), -0.25, 0)),
+        ("left", 90, (-0.5, 0, 0)),
+        ("up", 45, (0, 0, 0.5)),
+    ],
+)
+def test_a_push_in_any_direction(way: str, azimuth: float, velocity: tuple[float, ...]) -> None:
+    text = SPACE.replace("WAY", way).replace("AZIMUTH", f"{azimuth} deg")
+    for name, expected in zip(("forward", "left", "upward"), velocity, strict=True):
+        assert last(text, f"root.{name}_velocity", "rapid") == pytest.approx(expected, abs=1e-9)

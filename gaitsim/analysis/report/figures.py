@@ -13,11 +13,13 @@ from gaitsim.analysis.muscles.figures import muscle_figures
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.searches.convergence import convergence_figures, tuned_figures
 from gaitsim.analysis.searches.draws import draws_figures
+from gaitsim.analysis.searches.limits import limit_figures
 from gaitsim.analysis.searches.sweep import sweep_figures
 from gaitsim.analysis.signals.motion import motion_figures
 from gaitsim.analysis.signals.plots import signal_overlays
 
 FIGURES: tuple[Figures, ...] = (
+    limit_figures,
     sweep_figures,
     draws_figures,
     convergence_figures,
