@@ -29,6 +29,22 @@ def test_it_runs_with_a_flight_in_every_step(step: str) -> None:
         assert 2 < run[f"force_peaks_{side}"] < 3
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("step", ["0.5 ms", "0.25 ms"])
+def test_it_walks_while_asked_to_lean_back_and_runs_once_asked_to_lean_forward(step: str) -> None:
+    """The change of the target begins at 8.3 s."""
+    spec = ROOT / "specs" / "running_wang2012_transition.yaml"
+    settings = ("simulate.step=" + step, "simulate.duration=8.3 s")
+    early = [f"measures.{name}.settle=4 s" for name in ("speed", "stance_fraction", "flight")]
+    walk = Simulator(Opening(spec, (*settings, *early)).open().model()).run().metrics
+    assert walk["flight"] == 0 and walk["stance_fraction.double_support"] > 0.15
+    assert walk["speed"] == pytest.approx(1.56, abs=0.03)
+    run = Simulator(Opening(spec, settings[:1]).open().model()).run().metrics
+    assert run["fall_time"] == pytest.approx(30)
+    assert run["flight"] == 1 and run["stance_fraction.double_support"] == 0
+    assert run["speed"] == pytest.approx(2.2, abs=0.06)
+
+
 def test_nothing_that_is_known_of_walkers_stands_beside_a_runner() -> None:
     replay = replay_of(Opening(RUNNER).open(), RUNNER, duration=4)
     legs = two_legs(replay)
