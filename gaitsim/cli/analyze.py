@@ -47,7 +47,8 @@ def analyze(
     return_map: Annotated[
         list[str] | None,
         typer.Option(
-            metavar="SIGNAL", help="Draw each maximum of a signal over the one before; for a measure, of its input."
+            metavar="SIGNAL",
+            help="Draw each maximum of a signal against the previous one; for a measure, of its input.",
         ),
     ] = None,
     candidate: Annotated[
@@ -62,9 +63,9 @@ def analyze(
         typer.Option(metavar="TIME", help="Time between exported instants, such as '10 ms' (default: every step)."),
     ] = None,
     from_time: Annotated[
-        str | None, typer.Option(metavar="TIME", help="Start of the time that is shown, such as '2 s'.")
+        str | None, typer.Option(metavar="TIME", help="Start of the time interval to show, such as '2 s'.")
     ] = None,
-    to_time: Annotated[str | None, typer.Option(metavar="TIME", help="End of the time that is shown.")] = None,
+    to_time: Annotated[str | None, typer.Option(metavar="TIME", help="End of the time interval to show.")] = None,
     video: Annotated[
         bool | None, typer.Option("--video/--no-video", help="Make a video.  [default: unless --only]")
     ] = None,
@@ -76,15 +77,16 @@ def analyze(
     size: Annotated[
         str | None, typer.Option(metavar="WxH", help="Size of the video in pixels, such as 1280x720.")
     ] = None,
-    view: Annotated[
-        str, typer.Option(metavar="FROM", help="Where the video is seen from: side, behind or oblique.")
-    ] = "side",
+    view: Annotated[str, typer.Option(metavar="FROM", help="Camera of the video: side, behind or oblique.")] = "side",
     scopes: Annotated[
         list[str] | None, typer.Option(metavar="PATTERN", help="Signals to show beside the video; repeatable.")
     ] = None,
     formats: Annotated[list[Format] | None, typer.Option("--format", help="Format of the figures; repeatable.")] = None,
     only: Annotated[
-        bool, typer.Option("--only", help="Make only what other options ask for: no default figures, video or report.")
+        bool,
+        typer.Option(
+            "--only", help="Make only what other options ask for, without the default figures, video and report."
+        ),
     ] = False,
     folder: Annotated[Path | None, typer.Option(metavar="FOLDER", help="Output folder (default: the result).")] = None,
     start: Annotated[bool, typer.Option("--start", help="Ignore the tuned values beside the spec.")] = False,

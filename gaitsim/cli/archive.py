@@ -30,7 +30,7 @@ What = Annotated[
     list[str] | None,
     typer.Argument(
         metavar="[NAME | SPEC | FOLDER]...",
-        help="Shipped specs by name, specs, or folders of them (default: all that are shipped).",
+        help="Names of shipped specs, specs, or folders of specs (default: all shipped specs).",
         autocompletion=_names,
     ),
 ]
@@ -38,7 +38,7 @@ What = Annotated[
 
 @app.command("list")
 def list_models(what: What = None, json: Json = False) -> None:
-    """List models: what each is, the papers behind it, how well it has known values, and what it did when recorded.
+    """List models with their papers, their deviations from known values, and their recorded runs.
 
     Example: gaitsim archive list
     """
@@ -94,9 +94,9 @@ def check(what: What = None, library: Libraries = None, json: Json = False) -> i
 
 @app.command("record")
 def record(what: What = None, library: Libraries = None, json: Json = False) -> int:
-    """Run models and write what they do to records/ beside each spec; numbers that still hold stay as they are.
+    """Run models and write their results to records/ beside each spec. Recorded numbers that still hold are kept.
 
-    Each is run three times, to see how much of a metric another machine may round otherwise.
+    Each model runs three times, to estimate how much rounding on another machine may change its metrics.
 
     Examples:
 

@@ -35,11 +35,11 @@ def cohort(
     ] = None,
     retune: Annotated[
         int | None,
-        typer.Option(metavar="COUNT", help="Tune a row that does not complete, by at most so many evaluations."),
+        typer.Option(
+            metavar="COUNT", help="Tune each row that does not complete, with at most this number of evaluations."
+        ),
     ] = None,
-    metric: Annotated[
-        list[str] | None, typer.Option(metavar="METRIC", help="Metric that is drawn; repeatable.")
-    ] = None,
+    metric: Annotated[list[str] | None, typer.Option(metavar="METRIC", help="Metric to draw; repeatable.")] = None,
     seed: Annotated[int | None, typer.Option(help="Seed of each search (default: the spec's).")] = None,
     workers: Annotated[
         int | None, typer.Option(help="Number of processes; 0 uses this process (default: all cores).")
@@ -51,7 +51,7 @@ def cohort(
         ModeName | None,
         typer.Option(help="rapid: native code; normal: plain Python, for debugging (default: rapid)."),
     ] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Continue the cohort that a result began.")] = False,
+    resume: Annotated[bool, typer.Option("--resume", help="Continue the interrupted cohort in a result.")] = False,
     settings: Set = None,
     no_save: Annotated[bool, typer.Option("--no-save", help="Do not save a result folder.")] = False,
     results: Results = None,
@@ -62,8 +62,8 @@ def cohort(
 ) -> int:
     """Run a spec for each body of a table, and each value of a device, into one table.
 
-    A row that is invalid or falls costs only itself. Every row is saved as it ends, and what was interrupted can
-    continue.
+    An invalid row, or a row whose model falls, does not stop the others. Every row is saved as it ends, and an
+    interrupted cohort can continue.
 
     Examples:
 

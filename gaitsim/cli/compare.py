@@ -23,7 +23,9 @@ _DIGITS = re.compile(r"\b\d+\.\d+(e[+-]?\d+)?\b")
 
 def compare(
     first: Annotated[Path, typer.Argument(metavar="FIRST", help="A result folder or a spec.")],
-    second: Annotated[Path, typer.Argument(metavar="SECOND", help="What it is compared with.")],
+    second: Annotated[
+        Path, typer.Argument(metavar="SECOND", help="A result folder or a spec, compared with the first.")
+    ],
     folder: Annotated[
         Path | None, typer.Option(metavar="FOLDER", help="Folder of the figures (default: in the second result).")
     ] = None,

@@ -139,7 +139,7 @@ def new_component_file(
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Create a component that works, with a test, for you to change.
+    """Create a working component with a test, as a starting point.
 
     Examples:
 

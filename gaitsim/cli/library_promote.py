@@ -24,12 +24,15 @@ def promote(
     ] = None,
     test: Annotated[
         Path | None,
-        typer.Option(metavar="FILE", help="Test of its physics (default: tests/test_NAME.py of the project)."),
+        typer.Option(metavar="FILE", help="Test of its physics (default: tests/test_NAME.py in the project)."),
     ] = None,
     replace: Annotated[
-        bool, typer.Option("--replace", help="Replace one that is there, unless one of its users then changes.")
+        bool,
+        typer.Option(
+            "--replace", help="Replace an existing component, unless this changes a spec or result that uses it."
+        ),
     ] = False,
-    force: Annotated[bool, typer.Option("--force", help="With --replace: also if users change.")] = False,
+    force: Annotated[bool, typer.Option("--force", help="With --replace: replace it even then.")] = False,
     results: ManyResults = None,
     library: Libraries = None,
     json: Json = False,

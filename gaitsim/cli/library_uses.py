@@ -22,7 +22,7 @@ Where = Annotated[
     list[str] | None,
     typer.Argument(
         metavar="[SPEC | FOLDER]...",
-        help="Specs, or folders of them (default: the shipped ones, those here, and those of all projects of the lab).",
+        help="Specs or folders of specs (default: those shipped, in this folder, and in all projects of the lab).",
     ),
 ]
 ManyResults = Annotated[
@@ -42,7 +42,7 @@ def used_by(
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """List the specs and results that use a component or a table, each with the version that it has.
+    """List the specs and results that use a component or a table, with the version of each.
 
     Example: gaitsim library used-by muscle/geyer2003
     """
@@ -71,7 +71,7 @@ def test(
     library: Libraries = None,
     json: Json = False,
 ) -> int:
-    """Run all that uses a component with its present version, and compare with what was recorded.
+    """Run all specs and results that use a component with its current version, and compare with their recorded numbers.
 
     Specs are compared with their records, and results, with the component put in the place of their copies, with
     themselves. Do this before a changed component is accepted.

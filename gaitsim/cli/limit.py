@@ -44,7 +44,9 @@ def limit(
         ModeName | None,
         typer.Option(help="rapid: native code; normal: plain Python, for debugging (default: rapid)."),
     ] = None,
-    resume: Annotated[bool, typer.Option("--resume", help="Continue the limits that a result began.")] = False,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Continue the interrupted search for limits in a result.")
+    ] = False,
     settings: Set = None,
     no_save: Annotated[bool, typer.Option("--no-save", help="Do not save a result folder.")] = False,
     origin: Annotated[
@@ -65,7 +67,7 @@ def limit(
 
     With --over, limits over an angle become a polar figure: gaitsim analyze RESULT.
 
-    Every run is saved as it ends, and what was interrupted can continue.
+    Every run is saved as it ends, and an interrupted search can continue.
 
     Examples:
 

@@ -39,7 +39,7 @@ def optimize(
     scheduler: Annotated[str | None, typer.Option(metavar="ADDRESS", help="Address of the scheduler.")] = None,
     scheduler_file: Annotated[Path | None, typer.Option(metavar="FILE", help="File written by the scheduler.")] = None,
     mode: Annotated[ModeName | None, typer.Option(help="rapid: native code; normal: plain Python.")] = None,
-    smoke: Annotated[bool, typer.Option("--smoke", help="Try two generations of four candidates.")] = False,
+    smoke: Annotated[bool, typer.Option("--smoke", help="Short trial: two generations of four candidates.")] = False,
     resume: Annotated[bool, typer.Option("--resume", help="Continue the newest search of this spec.")] = False,
     origin: Annotated[
         str | None, typer.Option("--from", metavar="WHERE", help="Start at tuned, middle (of the bounds), or a result.")

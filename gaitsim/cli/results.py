@@ -29,14 +29,19 @@ def list_results(
         Path | None,
         typer.Argument(metavar="[FOLDER]", help="Folder of the results (default: $GAITSIM_RESULTS, or else results)."),
     ] = None,
-    name: Annotated[str | None, typer.Option(metavar="PATTERN", help="Only of specs named so, such as 'hop*'.")] = None,
+    name: Annotated[
+        str | None, typer.Option(metavar="PATTERN", help="Only results of specs with this name, such as 'hop*'.")
+    ] = None,
     kind: Annotated[str | None, typer.Option(metavar="KIND", help="Only run, or only optimize.")] = None,
     status: Annotated[str | None, typer.Option(metavar="STATUS", help="Only complete, interrupted or running.")] = None,
-    since: Annotated[str | None, typer.Option(metavar="DATE", help="Only from a day on, such as 2026-11-22.")] = None,
-    uses: Annotated[
-        str | None, typer.Option(metavar="KIND/NAME", help="Only with a component, such as muscle/geyer2003.")
+    since: Annotated[
+        str | None, typer.Option(metavar="DATE", help="Only results of this day and later, such as 2026-11-22.")
     ] = None,
-    noted: Annotated[str | None, typer.Option(metavar="TEXT", help="Only those whose notes hold a text.")] = None,
+    uses: Annotated[
+        str | None,
+        typer.Option(metavar="KIND/NAME", help="Only results that use this component, such as muscle/geyer2003."),
+    ] = None,
+    noted: Annotated[str | None, typer.Option(metavar="TEXT", help="Only results with this text in a note.")] = None,
     sort: Annotated[_ORDERS, typer.Option(help="Order of the rows; the best score is first.")] = _ORDERS.created,
     json: Json = False,
 ) -> None:
@@ -106,7 +111,7 @@ def show_result(folder: Folder, json: Json = False) -> None:
 def verify(
     folder: Folder,
     everything: Annotated[
-        bool, typer.Option("--all", help="Verify every candidate, not only some and the best.")
+        bool, typer.Option("--all", help="Verify every candidate, not only the best and a sample.")
     ] = False,
     trust: Trust = False,
     json: Json = False,

@@ -22,7 +22,7 @@ Folder = Annotated[Path, typer.Argument(metavar="RESULT", help="A result folder.
 
 def note(
     folder: Folder,
-    words: Annotated[list[str], typer.Argument(metavar="TEXT...", help="What you want to remember of it.")],
+    words: Annotated[list[str], typer.Argument(metavar="TEXT...", help="Text of the note.")],
     results: Results = None,
 ) -> None:
     """Add a note to a result, with your name and the day; notes are not part of its digest.
@@ -68,7 +68,7 @@ def import_result(
     results: Results = None,
     json: Json = False,
 ) -> None:
-    """Put a colleague's result among yours, and say which code it brings; nothing of it is run.
+    """Add a colleague's result to yours, and list the code that it brings. None of it is run.
 
     Example: gaitsim results import 2026-11-22-hopping-3f9c.zip
     """
@@ -104,10 +104,10 @@ def _imported(made: Path, found: list[Copy], changed: list[str]) -> dict[str, An
 
 def remove(
     folders: Annotated[list[Path], typer.Argument(metavar="RESULT...", help="Result folders.")],
-    yes: Annotated[bool, typer.Option("--yes", help="Remove without asking.")] = False,
+    yes: Annotated[bool, typer.Option("--yes", help="Delete without asking.")] = False,
     results: Results = None,
 ) -> None:
-    """Remove results for good, once you have said yes.
+    """Delete results permanently, after a confirmation.
 
     Example: gaitsim results remove results/2026-11-22-hopping-3f9c --yes
     """

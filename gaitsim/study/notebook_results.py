@@ -30,7 +30,7 @@ def compare(
 
     Args:
         first: A result folder or a spec.
-        second: What it is compared with.
+        second: A result folder or a spec, compared with the first.
         figures: Whether the runs are drawn over one another.
         folder: Where the figures go; None for a folder in the second result.
         trust: Run components of a result that this machine does not know.
