@@ -1,12 +1,13 @@
 # Needs Python 3.11 or newer, make and git; everything else goes into .venv.
 
-# The stamp bears the digest of what the environment is made from and where it stands: a changed
+# The stamp has the digest of what the environment is made from and where it stands: a changed
 # pyproject.toml or a moved folder means a fresh .venv (mujoco does not survive an upgrade in place).
 READY := .venv/ready-$(shell (pwd; cat pyproject.toml) | cksum | cut -d ' ' -f 1)
 PYTHONS := $(PYTHON) python3.13 python3.12 python3.11 python3
 
 # Nothing of the shell's own Python reaches ours, and compiled components stay in the checkout.
-unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV
+# Python keeps what it compiles: many tests start processes, and each would compile gaitsim again.
+unexport PYTHONPATH PYTHONHOME VIRTUAL_ENV PYTHONDONTWRITEBYTECODE
 export GAITSIM_CACHE := $(CURDIR)/.cache/gaitsim
 
 .PHONY: help setup run compiled test test-all archive check docs bench bench-page muscles walker clean
@@ -33,13 +34,13 @@ test: $(READY) ## run check and the fast tests, as required before a merge
 	@$(MAKE) --no-print-directory --jobs 2 check compiled
 	$(TESTS) -m "not slow"
 
-test-all: check compiled ## run check and all tests, including long simulations and killed searches, as required before a release
+test-all: check compiled .venv/docs-ready ## run check and all tests, including long simulations and killed searches, as required before a release
 	$(TESTS)
 
 archive: $(READY) ## run every model again and compare it with its record (a minute or two)
 	.venv/bin/gaitsim archive check
 
-docs: $(READY) ## build the documentation in site/ (a broken link is an error)
+docs: .venv/docs-ready ## build the documentation in site/ (a broken link is an error)
 	NO_MKDOCS_2_WARNING=1 .venv/bin/mkdocs build --quiet
 
 bench: $(READY) ## measure time per step, whole commands, growing models and workers (4 minutes)
@@ -58,8 +59,15 @@ clean: ## remove .venv and all caches, but not results/
 	rm -rf .venv .cache .mypy_cache .pytest_cache .ruff_cache bench/build site
 	find gaitsim library tests bench specs docs -name __pycache__ -prune -exec rm -rf {} +
 
+# The tools that build pages are a third of all files, and the fast tests need none of them.
+.venv/docs-ready: $(READY)
+	@$(INSTALL) --editable '.[docs]'
+	@touch $@
+
 # The stamp is written last. -qq leaves pip's errors visible. An active venv is asked for the
-# interpreter behind it, as it may be the very .venv that is to be replaced.
+# interpreter behind it, as it may be the very .venv that is to be replaced. Modules are compiled
+# by all cores afterwards; pip would use one. Packages have some files for other versions of Python.
+INSTALL := .venv/bin/python -m pip install -qq --disable-pip-version-check --no-compile
 $(READY):
 	@for name in $(PYTHONS); do \
 	  python=$$("$$name" -c 'import sys, venv, ensurepip; assert sys.version_info >= (3, 11); print(sys._base_executable)' 2>/dev/null) && break; \
@@ -72,5 +80,6 @@ $(READY):
 	echo "Making .venv with $$("$$python" --version), $$python (a minute or so)" >&2; \
 	rm -rf .venv && "$$python" -m venv .venv
 	@mkdir -p .cache && echo '*' > .cache/.gitignore
-	@.venv/bin/python -m pip install -qq --disable-pip-version-check --editable '.[dev]'
+	@$(INSTALL) --editable '.[dev]'
+	@.venv/bin/python -m compileall -q -q -j 0 .venv/lib || :
 	@touch $@

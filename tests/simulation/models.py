@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
 
 from gaitsim.components.find import Library, library_folders, shipped_folder
@@ -21,8 +22,15 @@ Settings = Iterable[tuple[str, str]]
 
 
 def model(path: Path, settings: Settings = ()) -> Model:
-    library = Library(library_folders(path))
-    return resolve(read_spec(path, tuple(settings)), library, path.stem)
+    """The model of a spec. Those of the checkout do not change while tests run, and are resolved once."""
+    return (_resolved_once if path.is_relative_to(ROOT) else _resolved)(path, tuple(settings))
+
+
+def _resolved(path: Path, settings: tuple[tuple[str, str], ...]) -> Model:
+    return resolve(read_spec(path, settings), Library(library_folders(path)), path.stem)
+
+
+_resolved_once = cache(_resolved)
 
 
 def simulator(path: Path, settings: Settings = (), mode: Mode = "rapid") -> Simulator:
