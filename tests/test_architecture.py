@@ -7,6 +7,8 @@ from collections.abc import Collection, Mapping
 from functools import cache
 from pathlib import Path
 
+from gaitsim.compiler.machine import MAKERS
+
 PACKAGE = Path(__file__).parents[1] / "gaitsim"
 FILES = sorted(PACKAGE.rglob("*.py"))
 BANNED = {"utils", "util", "helpers", "helper", "common", "misc", "base", "manager", "core"}
@@ -152,3 +154,12 @@ def test_files_are_short_and_named_after_what_they_hold() -> None:
     assert not {path.stem for path in FILES} & BANNED
     long = {str(p.relative_to(PACKAGE)) for p in FILES if len(p.read_text(encoding="utf-8").splitlines()) > 400}
     assert not long
+
+
+def test_the_key_of_machine_code_has_every_module_that_writes_some() -> None:
+    writers = {
+        path.stem
+        for path in (PACKAGE / "compiler").glob("*.py")
+        if any(name.startswith(("llvmlite", "numba", "gaitsim.compiler.writer")) for name in imports(path))
+    }
+    assert writers <= set(MAKERS)

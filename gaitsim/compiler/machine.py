@@ -26,7 +26,19 @@ import numpy as np
 from gaitsim.cache import keep, kept
 
 _MUJOCO = ("mj_step1", "mj_step2", "mj_forwardSkip", "mj_RungeKutta")
-_MAKERS = ("events", "kernel", "machine", "native", "records", "stopwatch", "translation", "workshop", "writer")
+MAKERS = (
+    "compilation",
+    "events",
+    "functions",
+    "instant",
+    "kernel",
+    "machine",
+    "native",
+    "records",
+    "stopwatch",
+    "translation",
+    "writer",
+)
 
 
 @dataclass(frozen=True)
@@ -44,7 +56,7 @@ class Code:
 def environment() -> str:
     """A text with everything on which machine code depends besides its source: versions and the processor."""
     folder = Path(__file__).parent
-    own = [hashlib.sha256((folder / f"{name}.py").read_bytes()).hexdigest() for name in _MAKERS]
+    own = [hashlib.sha256((folder / f"{name}.py").read_bytes()).hexdigest() for name in MAKERS]
     versions = [llvmlite.__version__, version("numba"), np.__version__, mujoco.__version__, sys.version]
     switches = sorted(f"{name}={value}" for name, value in os.environ.items() if name.startswith("NUMBA_"))
     processor, features = llvm.get_host_cpu_name(), llvm.get_host_cpu_features().flatten()

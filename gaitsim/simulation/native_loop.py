@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 
 from gaitsim.compiler import native
+from gaitsim.compiler.compilation import compiled
 from gaitsim.compiler.machine import Code
 from gaitsim.compiler.mjcf import Assembly, tie_place
 from gaitsim.compiler.plan import plan_of
 from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
-from gaitsim.compiler.workshop import compiled
 from gaitsim.simulation.events import Failed
 from gaitsim.simulation.failure import of_nothing_found
 from gaitsim.simulation.loop_result import LoopResult

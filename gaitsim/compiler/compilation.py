@@ -103,7 +103,7 @@ def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
     """
     components = [kernel.component for kernel in kernels]
     files = [(_texts(found), [_texts(file) for file in found.shared]) for found in components]
-    command = [sys.executable, "-m", "gaitsim.compiler.workshop"]
+    command = [sys.executable, "-m", "gaitsim.compiler.compilation"]
     quiet = subprocess.DEVNULL  # faults are reported by the process that needs the kernel
     bare = os.environ | {"MUJOCO_GL": "off"}
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=quiet, stderr=quiet, env=bare)
