@@ -1,7 +1,8 @@
-"""What a walker in space does beside people, at its step and at half of it: `python bench/space.py`.
+"""What walkers in space do beside people, at their step and at half of it: `python bench/space.py [SPEC ...]`.
 
-It prints a table in Markdown. People's ranges lie around one adult at 1.24 m/s (Rajagopal et al. 2016) and the normal
-curves of a gait laboratory; they are wide enough for other speeds of walking. An asterisk is beside what is outside.
+It prints a table in Markdown for each. People's ranges lie around one adult at 1.24 m/s (Rajagopal et al. 2016) and
+the normal curves of a gait laboratory; they are wide enough for other speeds of walking. An asterisk is beside what is
+outside.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from gaitsim.simulation.run import Simulator
 from gaitsim.study.opening import Opening
 from gaitsim.units import parse_unit
 
-SPEC = Path(__file__).resolve().parents[1] / "specs" / "walking_scone_h1922.yaml"
+SPECS = Path(__file__).resolve().parents[1] / "specs"
+BOTH = [SPECS / "walking_scone_h1922.yaml", SPECS / "walking_song2015.yaml"]
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,8 @@ class Measure:
         return "" if math.isinf(self.low) else f"{self.low:g} to {self.high:g}"
 
 
-MEASURES: Mapping[str, Measure] = {
+# By metric; a model without a pelvis of its own measures its trunk.
+MEASURES: Mapping[str | tuple[str, str], Measure] = {
     "fall_time": Measure("upright, s", "s"),
     "speed": Measure("speed, m/s", "m/s", 1.0, 1.5),
     "cadence": Measure("cadence, 1/min", "1/min", 95, 125),
@@ -54,9 +57,9 @@ MEASURES: Mapping[str, Measure] = {
     "force_peaks_r.first": Measure("first peak of the vertical force, body weights", "1", 1.0, 1.25),
     "force_peaks_r.second": Measure("second peak", "1", 1.0, 1.25),
     "medial_load.high": Measure("largest medial force, body weights", "1", 0.03, 0.09),
-    "pelvic_obliquity": Measure("obliquity of the pelvis, range, deg", "deg", 4, 12),
-    "pelvic_rotation": Measure("rotation of the pelvis, range, deg", "deg", 4, 14),
-    "hip_adduction": Measure("hip adduction, range, deg", "deg", 8, 18),
+    ("pelvic_obliquity", "trunk_obliquity"): Measure("obliquity of the pelvis, range, deg", "deg", 4, 12),
+    ("pelvic_rotation", "trunk_rotation"): Measure("rotation of the pelvis, range, deg", "deg", 4, 14),
+    ("hip_adduction", "hip_abduction"): Measure("hip adduction, range, deg", "deg", 8, 18),
     "sway": Measure("center of mass to the side, range, cm", "cm", 3, 6),
     "peak_knee_flexion": Measure("knee flexion in swing, deg", "deg", 55, 70),
     "lateral_margin": Measure("lateral margin of stability, mean, cm", "cm"),
@@ -68,24 +71,31 @@ MEASURES: Mapping[str, Measure] = {
 }
 
 
-def cells(model: Model) -> dict[str, str]:
-    """What one run does, by metric."""
-    found, units = Simulator(model).run().metrics, model.metrics
-    return {name: one.shown(found.get(name, math.nan), units[name]) for name, one in MEASURES.items()}
+def cells(model: Model) -> list[str]:
+    """What one run does, in the order of the measures."""
+    found, units, shown = Simulator(model).run().metrics, model.metrics, []
+    for names, one in MEASURES.items():
+        known = [name for name in ((names,) if isinstance(names, str) else names) if name in units]
+        shown.append(one.shown(found.get(known[0], math.nan), units[known[0]]) if known else "-")
+    return shown
 
 
-def main() -> None:
-    """Print the table."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("spec", nargs="?", type=Path, default=SPEC)
-    spec = parser.parse_args().spec
+def table(spec: Path) -> str:
+    """The table of one walker."""
     model = Opening(spec).open().model()
     step = model.simulate.step * 1e3
     halved = Opening(spec, (f"simulate.step={step / 2:g} ms",)).open().model()
-    columns = [cells(model), cells(halved)]
-    print(f"| | at {step:g} ms | at {step / 2:g} ms | people |\n|---|---|---|---|")
-    for name, measure in MEASURES.items():
-        print(f"| {measure.said} | {columns[0][name]} | {columns[1][name]} | {measure.people} |")
+    lines = [f"| {spec.stem} | at {step:g} ms | at {step / 2:g} ms | people |", "|---|---|---|---|"]
+    for measure, now, half in zip(MEASURES.values(), cells(model), cells(halved), strict=True):
+        lines.append(f"| {measure.said} | {now} | {half} | {measure.people} |")
+    return "\n".join(lines)
+
+
+def main() -> None:
+    """Print the tables."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("specs", nargs="*", type=Path, default=BOTH)
+    print("\n\n".join(table(spec) for spec in parser.parse_args().specs))
 
 
 if __name__ == "__main__":

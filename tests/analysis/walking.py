@@ -61,7 +61,7 @@ def walk(signals: Mapping[str, Floats | float], used: Model | None = None) -> Re
         values[:, columns[f"{heel}.load"]] = on_ground(side)
         values[:, columns[f"{heel}.force"]] = WEIGHT * on_ground(side)
         values[:, columns[f"{heel}.position"]] = position(side)
-        front = "ball" if f"leg_{side}.ball.position" in columns else "medial_toe"
+        front = next(n for n in ("ball", "medial_ball", "medial_toe") if f"leg_{side}.{n}.position" in columns)
         values[:, columns[f"leg_{side}.{front}.position"]] = position(side) + FOOT
     if "center.height" in columns:
         values[:, columns["center.height"]] = 1

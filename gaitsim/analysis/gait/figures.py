@@ -14,6 +14,7 @@ from gaitsim.analysis.gait.footsteps import double_support, lacks_center, margin
 from gaitsim.analysis.gait.frontal import frontal_figures
 from gaitsim.analysis.gait.joint_moments import joint_power, joint_work
 from gaitsim.analysis.gait.keypoints import FORWARDS, PEAKS_BY, POWERS, VERTICAL, draw_peaks, name_peaks
+from gaitsim.analysis.gait.lateral import lateral_figures
 from gaitsim.analysis.gait.legs import SIDES, Leg, has_two_legs, mass, on_side, two_legs
 from gaitsim.analysis.gait.muscles import activation_figures, metabolic_figures, sided_muscles
 from gaitsim.analysis.gait.panels import BAND, LINE, draw_cycle, draw_people, name_lines, said
@@ -38,6 +39,7 @@ def gait_figures(replay: Replay) -> list[Drawing]:
         *_angles(replay, legs),
         _forces(replay, legs),
         *frontal_figures(replay, legs),
+        *lateral_figures(replay, legs),
         *pressure_figures(replay, legs),
         *_moments(replay, legs),
         *activation_figures(replay, legs),

@@ -46,21 +46,22 @@ def steps(replay: Replay, legs: Sequence[Leg]) -> list[Step]:
     down, and where the same part of the other foot had touched down before.
     """
     found = []
-    for (before, other), (at, leg) in pairwise(_landings(legs)):
+    for (before, other), (at, leg) in pairwise(landings(legs)):
         if other.side == leg.side or at <= before:
             continue
-        contact = _landing_contact(replay, leg, at)
+        contact = landing_contact(replay, leg, at)
         twin = next((c for c in other.contacts if unsided(c) == unsided(contact)), other.contacts[0])
         length = _position(replay, contact, at) - _position(replay, twin, before)
         found.append(Step(leg.side, at, at - before, length))
     return found
 
 
-def _landings(legs: Sequence[Leg]) -> list[tuple[float, Leg]]:
+def landings(legs: Sequence[Leg]) -> list[tuple[float, Leg]]:
+    """All touchdowns in order: time in s, and leg."""
     return sorted(((at, leg) for leg in legs for at in leg.touchdowns), key=lambda landing: landing[0])
 
 
-def _landing_contact(replay: Replay, leg: Leg, at: float) -> str:
+def landing_contact(replay: Replay, leg: Leg, at: float) -> str:
     """The contact of a leg that is loaded most at its touchdown."""
     index = int(np.searchsorted(replay.times, at))
     return max(leg.contacts, key=lambda contact: float(replay.trajectory[f"{contact}.load"][index]))
@@ -85,8 +86,8 @@ def margin(replay: Replay, legs: Sequence[Leg]) -> Floats | None:
     Returns:
         A value for each instant, nan in flight; None without a sensor/center_of_mass or with ground that is not flat.
     """
-    sensor = _center(replay.model)
-    if sensor is None or not _flat(replay.model):
+    sensor = center_of(replay.model)
+    if sensor is None or not on_level_ground(replay.model):
         return None
     signals = replay.trajectory
     pace = np.sqrt(replay.model.simulate.gravity / np.mean(signals[f"{sensor}.height"]))
@@ -99,14 +100,16 @@ def margin(replay: Replay, legs: Sequence[Leg]) -> Floats | None:
 
 def lacks_center(model: Model) -> bool:
     """Whether the margin of stability is missing only because there is no sensor/center_of_mass."""
-    return _center(model) is None and _flat(model)
+    return center_of(model) is None and on_level_ground(model)
 
 
-def _center(model: Model) -> str | None:
+def center_of(model: Model) -> str | None:
+    """The address of the sensor of the center of mass; None without one."""
     return next((p.address for p in model.parts if p.type.reference == _CENTER), None)
 
 
-def _flat(model: Model) -> bool:
+def on_level_ground(model: Model) -> bool:
+    """Whether all ground of a model is flat."""
     return {p.type.reference for p in model.parts if p.type.kind == "terrain"} <= {_FLAT}
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 import numpy as np
@@ -66,12 +67,14 @@ def _curves(replay: Replay, legs: Sequence[Leg]) -> dict[str, dict[str, Floats]]
             found.setdefault("pelvic obliquity", {})[leg.side] = signals[f"{pelvis}.rise"]
             found.setdefault("pelvic rotation", {})[leg.side] = signals[f"{pelvis}.yaw"]
         for hinge in _of_type(replay.model, _HINGE, leg.side):
-            name = unsided(hinge.address).replace("_", " ")
+            own = unsided(hinge.address).replace("_", " ")
+            name = re.sub("abduction$", "adduction", own)
+            sign = 1 if name == own else -1
             if name.endswith(("adduction", "rotation")):
-                found.setdefault(name, {})[leg.side] = signals[f"{hinge.address}.angle"]
+                found.setdefault(name, {})[leg.side] = sign * signals[f"{hinge.address}.angle"]
             moment = joint_moment(replay, hinge.address) if name == "hip adduction" else None
             if moment is not None:
-                found.setdefault(_ABDUCTION, {})[leg.side] = -moment / mass(replay, leg)
+                found.setdefault(_ABDUCTION, {})[leg.side] = -sign * moment / mass(replay, leg)
         sideways = [f"{contact}.side_force" for contact in leg.contacts]
         if leg.weight > 0 and all(signal in signals.signals for signal in sideways):
             inwards = (1 if leg.side == "r" else -1) / leg.weight
