@@ -5,9 +5,9 @@ class SpeedModulation(Component):
     """A value of a controller as a function of the speed that is asked for: a line, or a parabola.
 
     y = y_slow + (y_fast - y_slow) s + 4 b s (1 - s), where s goes from 0 at the slow speed to 1 at the fast one; beyond
-    them y is constant. b is how far the parabola is above the line in the middle. That few values of a reflex model
-    change with speed and the others do not is the idea of Song & Geyer (2012); polynomials of the speed that is asked
-    for are those of Koseki et al. (2024).
+    them y is constant. b is how far the parabola is above the line in the middle. That values of a reflex model change
+    with the speed that is asked for is the idea of Song & Geyer (song2012) and Koseki et al. (koseki2024); the curve is
+    a choice of ours.
     """
 
     slow = Parameter("m/s", "Slow speed.", bounds=(-10, 10))

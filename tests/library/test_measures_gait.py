@@ -231,3 +231,26 @@ def test_fall_tells_a_fall_from_a_run_that_ended() -> None:
     assert metrics("measure/fall", leaning, DT, below=0.5)["fell"] == 0
     found = metrics("measure/fall", leaning, DT, below=0.5, beyond=0.8)
     assert found == pytest.approx({"value": 0.2, "fell": 1})
+
+
+def test_the_speed_of_each_stride_and_its_error() -> None:
+    times = steps(20)
+    speed = np.where(times < 10, 1.0, 1.4)
+    asked = np.where(times < 10, 1.1, 1.4)
+    signals = {"position": np.cumsum(speed) * DT - speed * DT, "asked": asked, "stance": walking(times, 1.0, 0.6, 0.5)}
+    found = metrics("measure/stride_speed", signals, DT, settle=2.0)
+    # Strides begin at 2.5 s, 3.5 s ... and 18.5 s; one of the 17 is half slow and half fast.
+    strides = np.array([1.0] * 7 + [1.2] + [1.4] * 9)
+    errors = np.array([0.1] * 7 + [0.05] + [0.0] * 9)
+    assert found["value"] == pytest.approx(np.mean(strides), rel=1e-9)
+    assert found["error"] == pytest.approx(math.sqrt(np.mean(errors**2)), rel=1e-9)
+    assert (found["slowest"], found["fastest"]) == pytest.approx((1.0, 1.4))
+    assert found["largest_error"] == pytest.approx(0.1)
+
+
+def test_no_stride_has_no_speed() -> None:
+    times = steps(1)
+    signals = {"position": times, "asked": times, "stance": np.zeros(len(times))}
+    assert metrics("measure/stride_speed", signals, DT) == dict.fromkeys(
+        ("value", "error", "largest_error", "slowest", "fastest"), NAN
+    )
