@@ -17,7 +17,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from gaitsim.cache import kept
-from gaitsim.compiler import machine
+from gaitsim.compiler import machine, stage_code
 from gaitsim.compiler.kernel import Kernel, kernel_of
 from gaitsim.compiler.native import CLOCK, TICKS
 from gaitsim.compiler.plan import Plan
@@ -50,6 +50,8 @@ def compiled(plan: Plan, kernels: Mapping[str, Kernel], timed: bool = False) -> 
         from gaitsim.compiler.translation import Translation
 
         bitcode = bitcode_of([*kernels.values()])
+        if plan.own_stages:
+            bitcode.append(stage_code.bitcode())
         translation = TimedTranslation(plan) if timed else Translation(plan)
         module = machine.linked(str(translation.module()), bitcode)
         for name in kernels:

@@ -12,9 +12,10 @@ from llvmlite import ir
 
 from gaitsim.compiler.functions import Functions
 from gaitsim.compiler.kernel import STAGES
+from gaitsim.compiler.mujoco_step import MujocoStep
 from gaitsim.compiler.native import FRAME, SUSPECT
 from gaitsim.compiler.plan import Piece, Step
-from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, NOTHING, POINTER, SHORT, Writer
+from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, POINTER, SHORT, Writer
 
 # Kernels of more parts than this are called instead of inlined, so that their code stays in the cache.
 _COPIES = 3
@@ -35,7 +36,7 @@ class Instant(Functions):
         """Emit the outputs at the present positions and velocities of MuJoCo."""
         b, plan = f.builder, self.plan
         with self._timed(f, "first half"):
-            b.call(self._external("mj_step1", NOTHING, [POINTER, POINTER]), [f.model, f.data])
+            MujocoStep(self).look(f)
         for i, (place, moves) in enumerate(plan.reads):
             if moves:
                 self._read(f, i, place)

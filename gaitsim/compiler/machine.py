@@ -25,16 +25,24 @@ import numpy as np
 
 from gaitsim.cache import keep, kept
 
-_MUJOCO = ("mj_step1", "mj_step2", "mj_forwardSkip", "mj_RungeKutta")
+_MUJOCO = (
+    *("mj_step1", "mj_step2", "mj_forwardSkip", "mj_RungeKutta"),
+    *("mj_kinematics", "mj_comPos", "mj_makeM", "mj_comVel", "mj_subtreeVel", "mj_rne"),
+    *("mj_sensorPos", "mj_sensorVel", "mj_energyPos", "mj_energyVel", "mj_factorM", "mj_solveM"),
+)
 MAKERS = (
+    "chains",
     "compilation",
     "events",
     "functions",
     "instant",
     "kernel",
     "machine",
+    "mujoco_step",
     "native",
     "records",
+    "stage_code",
+    "stages",
     "stopwatch",
     "translation",
     "writer",

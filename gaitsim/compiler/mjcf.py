@@ -5,10 +5,12 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import mujoco
 
+from gaitsim.compiler.chains import own_stages
 from gaitsim.compiler.mechanics.making import Made
 from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Relief, Touching, world_frames
 from gaitsim.compiler.mechanics.space import check_friction, check_grounds, check_sides
@@ -55,6 +57,16 @@ class Assembly:
     def runge_kutta(self) -> bool:
         """Whether MuJoCo uses the integrator rk4."""
         return bool(self.model.opt.integrator == _INTEGRATORS["rk4"])
+
+    @property
+    def energy(self) -> bool:
+        """Whether MuJoCo computes energies."""
+        return bool(self.model.opt.enableflags & mujoco.mjtEnableBit.mjENBL_ENERGY)
+
+    @cached_property
+    def own_stages(self) -> bool:
+        """Whether gaitsim makes stages of MuJoCo's step itself."""
+        return own_stages(self.model)
 
     @property
     def xml(self) -> str:

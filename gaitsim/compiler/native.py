@@ -28,7 +28,8 @@ _TABLES = {
     "rest": "pointer",
 }
 FRAME = {"step": "integer", **_TABLES}
-# Addresses of what is read and written in MuJoCo's data; values before the start; initial values of states.
+# Addresses of what is read and written in MuJoCo's data; values before the start; initial values of states;
+# addresses for the stages of MuJoCo's step that gaitsim makes itself.
 START = {
     **_TABLES,
     "ties": "pointer",
@@ -46,6 +47,7 @@ RUN = {
     "steps": "integer",
     "model": "shared",
     "data": "shared",
+    "stages": "shared",
     "qpos": "shared",
     "qvel": "shared",
     "fastest": "number",
@@ -55,9 +57,9 @@ RUN = {
 
 
 # Of code with a stopwatch: its table of ticks, for each part and then for these (the halves are those of MuJoCo's
-# step), and the function that tells the tick.
+# step, with gaitsim's own stages), and the function that tells the tick.
 TICKS, CLOCK = "ticks", "clock"
-TIMED = ("first half", "second half", "reading", "steps")
+TIMED = ("own stages", "first half", "second half", "reading", "steps")
 
 
 def padded(size: int) -> int:

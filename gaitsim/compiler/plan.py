@@ -59,6 +59,8 @@ class Plan:
         writes: For each number written to MuJoCo: whether it is an output, its index, and its sign.
         coordinates: The number of MuJoCo's positions and velocities.
         runge_kutta: Whether MuJoCo uses the integrator rk4.
+        energy: Whether MuJoCo computes energies.
+        own_stages: Whether gaitsim makes stages of MuJoCo's step itself; see `compiler/stages.py`.
         guards: The parts with events, and the output that rises through 0.
         resets: The numbers that events set, as in `writes`, and the port that says when.
     """
@@ -75,6 +77,8 @@ class Plan:
     writes: tuple[tuple[bool, int, float], ...]
     coordinates: tuple[int, int]
     runge_kutta: bool
+    energy: bool
+    own_stages: bool
     states: int
     outputs: int
     guards: tuple[tuple[int, int], ...]
@@ -126,6 +130,8 @@ def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kerne
         tuple(writes),
         (int(assembly.model.nq), int(assembly.model.nv)),
         assembly.runge_kutta,
+        assembly.energy,
+        assembly.own_stages,
         program.states.size,
         program.outputs.size,
         tuple((i, program.outputs.place(i, GUARD)) for i in program.guarded),

@@ -11,10 +11,10 @@ from typing import Any
 
 from gaitsim.compiler.events import Events
 from gaitsim.compiler.instant import OUTPUTS, Instant
-from gaitsim.compiler.mjcf import AFTER_VELOCITIES
+from gaitsim.compiler.mujoco_step import MujocoStep
 from gaitsim.compiler.native import COMPLETED, DIVERGED, FRAME, RUN, START, STOPPED, SUSPECT
 from gaitsim.compiler.records import Records
-from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, NOTHING, POINTER, SHORT, Writer
+from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, Writer
 
 
 class Translation(Instant):
@@ -112,14 +112,8 @@ class Translation(Instant):
         """Emit the second half of MuJoCo's step."""
         if self.plan.guards:
             self._end_unless(f, Events(self).advance(f), SUSPECT)
-            return
-        if not self.plan.runge_kutta:
-            f.builder.call(self._external("mj_step2", NOTHING, [POINTER, POINTER]), [f.model, f.data])
-            return
-        forward = self._external("mj_forwardSkip", NOTHING, [POINTER, POINTER, SHORT, SHORT])
-        f.builder.call(forward, [f.model, f.data, SHORT(AFTER_VELOCITIES), SHORT(0)])
-        advance = self._external("mj_RungeKutta", NOTHING, [POINTER, POINTER, SHORT])
-        f.builder.call(advance, [f.model, f.data, SHORT(4)])
+        else:
+            MujocoStep(self).advance(f)
 
     def _end_unless(self, f: Writer, good: Any, status: int) -> None:
         with f.builder.if_then(f.builder.not_(good), likely=False):

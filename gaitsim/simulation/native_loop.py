@@ -15,6 +15,7 @@ from gaitsim.compiler.machine import Code
 from gaitsim.compiler.mjcf import Assembly, tie_place
 from gaitsim.compiler.plan import plan_of
 from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
+from gaitsim.compiler.stage_code import ADDRESSES
 from gaitsim.simulation.events import Failed
 from gaitsim.simulation.failure import of_nothing_found
 from gaitsim.simulation.loop_result import LoopResult
@@ -136,6 +137,7 @@ class NativeLoop:
             "qpos": physics.data.qpos,
             "qvel": physics.data.qvel,
             "reached": step,
+            "stages": self._stage_addresses(),
         }
         given = {word: array.ctypes.data_as(ctypes.c_void_p) for word, array in held.items()}
         given["record"] = None if record is None else record.ctypes.data_as(ctypes.c_void_p)
@@ -191,6 +193,11 @@ class NativeLoop:
                 self._natives[shape] = _Native.of(compiled(*plan_of(self.program, assembly), self.timed))
             self._tied = assembly, self._natives[shape], self._addresses()
         return self._tied[1:]
+
+    def _stage_addresses(self) -> Integers:
+        """The addresses of what the stages of gaitsim's own read and write; none if there are no such stages."""
+        made = self.physics.stages
+        return np.array([made.arrays[name].ctypes.data for name in ADDRESSES] if made else [], dtype=np.int64)
 
     def _addresses(self) -> Integers:
         physics, assembly = self.physics, self.physics.assembly

@@ -10,7 +10,8 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gaitsim.compiler.mjcf import Assembly, assemble, tie_place
+from gaitsim.compiler.chains import Stages
+from gaitsim.compiler.mjcf import AFTER_VELOCITIES, Assembly, assemble, tie_place
 from gaitsim.compiler.program import Program
 from gaitsim.errors import Fault, InvalidSpec
 from gaitsim.simulation.failure import of_mechanics, of_runaway
@@ -31,6 +32,7 @@ class Physics:
     _built_for: tuple[float, ...] | None = None
     _assembly: Assembly | None = field(default=None, repr=False)
     data: Any = None
+    stages: Stages | None = field(default=None, repr=False)
 
     @property
     def assembly(self) -> Assembly:
@@ -65,6 +67,7 @@ class Physics:
             self._assembly = assemble(self.program.model, values, dressed=False)
             self._built_for = key
             self.data = mujoco.MjData(self.model)
+            self.stages = Stages.of(self.model, self.data) if self._assembly.own_stages else None
         mujoco.mj_resetData(self.model, self.data)
         # MuJoCo would print and log a warning the first time; the loops make their own checks.
         self.data.warning.number[:] = 1
@@ -86,6 +89,42 @@ class Physics:
             if place not in given["qpos"]:
                 stand(self.model, self.data, place, self.assembly.touching, self.assembly.relief)
         mujoco.mj_forward(self.model, self.data)
+
+    def look(self) -> None:
+        """The first half of MuJoCo's step: everything that follows from positions and velocities."""
+        m, d = self.model, self.data
+        if self.stages is None:
+            mujoco.mj_step1(m, d)
+            return
+        mujoco.mj_kinematics(m, d)
+        mujoco.mj_comPos(m, d)
+        mujoco.mj_makeM(m, d)
+        mujoco.mj_comVel(m, d)
+        self.stages.call("look_at_paths")
+        self.stages.call("look_at_contacts")
+        mujoco.mj_rne(m, d, 0, d.qfrc_bias)
+        mujoco.mj_subtreeVel(m, d)
+        mujoco.mj_sensorPos(m, d)
+        mujoco.mj_sensorVel(m, d)
+        if self.assembly.energy:
+            mujoco.mj_energyPos(m, d)
+            mujoco.mj_energyVel(m, d)
+
+    def advance(self) -> None:
+        """The second half of MuJoCo's step: forces, accelerations, and the next instant."""
+        m, d = self.model, self.data
+        if self.assembly.runge_kutta:
+            mujoco.mj_forwardSkip(m, d, AFTER_VELOCITIES, 0)
+            mujoco.mj_RungeKutta(m, d, 4)
+        elif self.stages is None:
+            mujoco.mj_step2(m, d)
+        else:
+            self.stages.call("load_joints")
+            self.stages.call("load_contacts")
+            mujoco.mj_factorM(m, d)
+            solved, total = (self.stages.arrays[name].reshape(1, -1) for name in ("acceleration", "total"))
+            mujoco.mj_solveM(m, d, solved, total)
+            self.stages.call("advance")
 
     @cached_property
     def _coordinates(self) -> dict[str, tuple[str, int]]:

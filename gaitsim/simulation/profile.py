@@ -15,12 +15,14 @@ from gaitsim.compiler import machine
 from gaitsim.compiler.native import CLOCK, TICKS, TIMED
 from gaitsim.compiler.plan import plan_of
 from gaitsim.compiler.program import Program
+from gaitsim.compiler.stage_code import STAGES
 from gaitsim.errors import SimulationFailed
 from gaitsim.model import Model
 from gaitsim.simulation.native_loop import NativeLoop
 
 PAIRS = 5
 LOOP = "delays, checks, loop"
+OWN = "paths, contacts, sum of forces"
 # MuJoCo's timers that do not contain one another: name here, name there.
 _STAGES = {
     "kinematics": "POS_KINEMATICS",
@@ -113,6 +115,7 @@ class _Watch:
         self.loop, self.model, self.steps = loop, model, 0
         plan, code = plan_of(loop.program, loop.physics.assembly)[0], loop.code
         self.calls = [sum(call.always for call in plan.calls if call.piece == i) for i in range(len(plan.pieces))]
+        self.own = len(STAGES) if plan.own_stages else 0
         for i in plan.updates:
             self.calls[i] += 1
         numbers = ctypes.c_int64 * (len(plan.pieces) + len(TIMED))
@@ -134,7 +137,7 @@ class _Watch:
     def _costs(self, tick: float) -> tuple[Cost, ...]:
         """The time of each part of a step, less the time of reading the stopwatch."""
         parts, others = np.split(self.ticks * (tick / self.steps), [len(self.calls)])
-        first, second, reading, whole = others
+        own, first, second, reading, whole = others
         corrected = np.maximum(parts - reading * np.array(self.calls), 0)
         found = [
             Cost(part.address, part.type.reference, calls, float(seconds))
@@ -146,9 +149,11 @@ class _Watch:
             for name, word in _STAGES.items()
         ]
         stages = [Cost(stage.name, stage.use, 1, stage.seconds / self.steps) for stage in stages]
-        mechanics = first + second - 2 * reading
+        if self.own:
+            stages.append(Cost(OWN, "", self.own, float(own - self.own * reading)))
+        mechanics = first + second - (2 + self.own) * reading
         stages.append(Cost("other mechanics", "MuJoCo", 2, float(mechanics - sum(stage.seconds for stage in stages))))
-        read = sum(self.calls) + len(TIMED) - 1
+        read = sum(self.calls) + len(TIMED) - 2
         rest = whole - parts.sum() - first - second - read * reading
         return (*found, *stages, Cost(LOOP, "", 1, float(rest)))
 

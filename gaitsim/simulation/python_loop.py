@@ -12,11 +12,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-import mujoco
 import numpy as np
 
 from gaitsim.compiler.kernel import STAGES
-from gaitsim.compiler.mjcf import AFTER_VELOCITIES, tie_place
+from gaitsim.compiler.mjcf import tie_place
 from gaitsim.compiler.program import STARTING_ROUNDS, Floats, Integers, Program
 from gaitsim.components.load import function_of
 from gaitsim.simulation.events import Failed, advance
@@ -139,7 +138,7 @@ class Checked:
         Raises:
             Failed: A component fails.
         """
-        mujoco.mj_step1(self.physics.model, self.physics.data)
+        self.physics.look()
         self._read()
         self._outputs(step)
 
@@ -244,14 +243,10 @@ class Checked:
 
     def _advance(self, step: int) -> None:
         """The second half of MuJoCo's step."""
-        model, data = self.physics.model, self.physics.data
         if self.program.guarded:
             advance(self, step)
-        elif self.physics.assembly.runge_kutta:
-            mujoco.mj_forwardSkip(model, data, AFTER_VELOCITIES, 0)
-            mujoco.mj_RungeKutta(model, data, 4)
         else:
-            mujoco.mj_step2(model, data)
+            self.physics.advance()
 
     def sent(self, part: int, port: str) -> Any:
         """The value of an output of a part, or of an input."""

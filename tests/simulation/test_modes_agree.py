@@ -24,6 +24,7 @@ FAST: dict[str, Settings] = {
     "hopping_leg_mass": [("simulate.duration", "0.3 s")],
     "walking_geyer2010": [("simulate.duration", "0.3 s")],
     "walking_geyer2010_mujoco_contact": [("simulate.duration", "0.1 s")],
+    "walking_scone_h1922": [("simulate.duration", "0.06 s")],
 }
 RUNS: list[tuple[Path, Settings]] = [
     *[(path, ()) for path in SPECS],
