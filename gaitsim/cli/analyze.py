@@ -108,9 +108,9 @@ def analyze(
 
     gaitsim analyze results/2026-11-22-hopping-3f9c --only --export sto --return-map guide.position
     """
-    from gaitsim.study.analyses import Wanted, analyzed
+    from gaitsim.study.analyses import AnalysisRequest, analyzed
 
-    wanted = Wanted(
+    wanted = AnalysisRequest(
         plot=tuple(plot or ()),
         against=against,
         return_map=tuple(return_map or ()),

@@ -94,19 +94,19 @@ def cohort(
         raise
     _report(runs, time.perf_counter() - began, json)
     failed = not any(found.outcome.status != "failed" for found in runs.found.values())
-    return console.code_after(runs.keeping.error, ExitCode.FAILED if failed else 0)
+    return console.code_after(runs.saver.error, ExitCode.FAILED if failed else 0)
 
 
 def _begun(
     opened: Opening, bodies: Path | None, asked: dict[str, Any], no_save: bool, results: Path | None
 ) -> CohortRuns:
-    from gaitsim.study.cohorts import Asked, cohort_runs
+    from gaitsim.study.cohorts import CohortRequest, cohort_runs
 
     if bodies is None:
         sample = command("cohort", opened.path, "bodies.csv")
         raise Usage(f"there is no table of bodies; name one, such as {sample}, or --resume a result.")
     said: Mode = "normal" if asked["mode"] == ModeName.normal else "rapid"
-    of = Asked(bodies, asked["vary"] or [], asked["retune"] or 0, asked["seed"], asked["metric"] or [])
+    of = CohortRequest(bodies, asked["vary"] or [], asked["retune"] or 0, asked["seed"], asked["metric"] or [])
     return cohort_runs(opened, of, said, None if no_save else results_folder(results))
 
 

@@ -15,7 +15,7 @@ from gaitsim.errors import ExitCode
 from gaitsim.folders import results_folder
 
 if TYPE_CHECKING:
-    from gaitsim.study.acceptance import Tested
+    from gaitsim.study.acceptance import Effect
     from gaitsim.study.uses import Scope
 
 Where = Annotated[
@@ -128,7 +128,7 @@ _WORDS = {
 }
 
 
-def give_tested(reference: str, found: Sequence[Tested]) -> None:
+def give_tested(reference: str, found: Sequence[Effect]) -> None:
     """Print the results of a component's users with its present version; to stderr what could not be run."""
     wrong = [one for one in found if one.state in ("differs", "error")]
     rows = [row for one in found for row in difference_rows(one.name, one.differs)]
@@ -160,7 +160,7 @@ def _few(names: tuple[str, ...]) -> str:
     return ", ".join(names if len(names) < 4 else [*names[:3], f"{len(names) - 3} more"])
 
 
-def tested_data(one: Tested) -> dict[str, object]:
+def tested_data(one: Effect) -> dict[str, object]:
     """The result of one user as data."""
     return {
         "what": one.what,

@@ -78,7 +78,7 @@ def limit(
 
     gaitsim limit results/2026-11-22-walking_geyer2010_perturbed-3f9c --resume
     """
-    from gaitsim.study.begun_limits import begun_or_resumed
+    from gaitsim.study.new_limits import new_or_resumed
 
     opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
     talk = console.ConsoleListener(json)
@@ -91,7 +91,7 @@ def limit(
         "mode": mode,
         "from": origin,
     }
-    runs = begun_or_resumed(opened, asked, resume, None if no_save else results_folder(results), talk)
+    runs = new_or_resumed(opened, asked, resume, None if no_save else results_folder(results), talk)
     try:
         runs.run(talk)
     except KeyboardInterrupt:
@@ -99,7 +99,7 @@ def limit(
             console.say(f"interrupted; to continue: {command('limit', runs.folder, '--resume')}")
         raise
     _report(runs, runs.folder, json)
-    return console.code_after(runs.keeping.error, 0)
+    return console.code_after(runs.saver.error, 0)
 
 
 def _report(runs: LimitRuns, folder: Path | None, json: bool) -> None:

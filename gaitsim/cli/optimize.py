@@ -68,7 +68,7 @@ def optimize(
     """
     from gaitsim.errors import ExitCode
     from gaitsim.study.adoption import adopted
-    from gaitsim.study.searches import Request, begun, check_adoption, resumed
+    from gaitsim.study.searches import Request, check_adoption, resumed, started
     from gaitsim.study.workplace import Workplace
 
     chosen = opening(spec, settings, library, tuned=False, trusted=trust, results=results)
@@ -85,7 +85,7 @@ def optimize(
     )
     workplace = Workplace(workers, cluster, scheduler, scheduler_file)
     workplace.check()
-    tuning = (resumed if resume else begun)(request, results_folder(results))
+    tuning = (resumed if resume else started)(request, results_folder(results))
     for notice in tuning.notices:
         console.say(notice)
     began = time.perf_counter()

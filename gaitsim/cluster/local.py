@@ -11,7 +11,7 @@ from multiprocessing.connection import wait
 
 from gaitsim.cluster.evaluate import runner_of
 from gaitsim.cluster.process import START_METHOD, Lifeline, Worker, started
-from gaitsim.cluster.time_limits import Found, Pace, TimeLimits, killed, too_late
+from gaitsim.cluster.time_limits import Pace, TimedEvaluation, TimeLimits, killed, too_late
 from gaitsim.optimization.evaluation import Candidate, Evaluation
 from gaitsim.results.bundle import Bundle
 from gaitsim.simulation.run import Mode
@@ -55,7 +55,7 @@ class Local:
             self.close()
             raise
 
-    def __call__(self, candidates: Sequence[Candidate]) -> Iterator[Found]:
+    def __call__(self, candidates: Sequence[Candidate]) -> Iterator[TimedEvaluation]:
         left = deque(candidates)
         self._give(left)
         return self._found(left)
@@ -70,7 +70,7 @@ class Local:
     def _started(self) -> Worker:
         return started(self._bundle, self._mode, self._lifeline, self._method)
 
-    def _found(self, left: deque[Candidate]) -> Iterator[Found]:
+    def _found(self, left: deque[Candidate]) -> Iterator[TimedEvaluation]:
         deaths: Counter[Candidate] = Counter()
         late: set[Candidate] = set()
         while any(worker.given for worker in self._workers):

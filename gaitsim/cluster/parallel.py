@@ -12,7 +12,7 @@ from typing import Any
 from distributed import KilledWorker
 
 from gaitsim.cluster.fingerprint import differences, fingerprint
-from gaitsim.cluster.time_limits import Found, Pace, TimeLimits, killed, too_late
+from gaitsim.cluster.time_limits import Pace, TimedEvaluation, TimeLimits, killed, too_late
 from gaitsim.cluster.unreachable import ClusterError
 from gaitsim.cluster.worker import BundlePlugin, Chunk, Done, evaluate_chunk
 from gaitsim.optimization.evaluation import Candidate
@@ -59,11 +59,11 @@ class Parallel:
         if cluster is not None:
             cluster.close()
 
-    def __call__(self, candidates: Sequence[Candidate]) -> Iterator[Found]:
+    def __call__(self, candidates: Sequence[Candidate]) -> Iterator[TimedEvaluation]:
         finished: Queue[Any] = Queue()
         return self._in_turn({self._submit(chunk, finished): chunk for chunk in self._chunks(candidates)}, finished)
 
-    def _in_turn(self, waiting: dict[Any, Chunked], finished: Queue[Any]) -> Iterator[Found]:
+    def _in_turn(self, waiting: dict[Any, Chunked], finished: Queue[Any]) -> Iterator[TimedEvaluation]:
         suspects: list[Candidate] = []
         yield from self._found(waiting, finished, suspects)
         for candidate in suspects:
@@ -73,7 +73,9 @@ class Parallel:
             if again:
                 yield killed(candidate)
 
-    def _found(self, waiting: dict[Any, Chunked], finished: Queue[Any], suspects: list[Candidate]) -> Iterator[Found]:
+    def _found(
+        self, waiting: dict[Any, Chunked], finished: Queue[Any], suspects: list[Candidate]
+    ) -> Iterator[TimedEvaluation]:
         """The results of submitted chunks. Candidates whose workers died are added to the suspects."""
         slow: set[Candidate] = set()
         while waiting:

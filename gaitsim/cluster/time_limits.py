@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
 
-Found = tuple[Evaluation, float, str]  # with its seconds, and the host
+TimedEvaluation = tuple[Evaluation, float, str]  # with its seconds, and the host
 
 
 @dataclass(frozen=True)
@@ -40,15 +40,15 @@ class Pace:
         return 0 if self.mean is None else int(seconds / max(self.mean, 1e-6))
 
 
-def killed(candidate: Candidate) -> Found:
+def killed(candidate: Candidate) -> TimedEvaluation:
     """The result of a candidate that made its workers die."""
     return _given_up(candidate, "killed", "this candidate killed every worker that tried it")
 
 
-def too_late(candidate: Candidate) -> Found:
+def too_late(candidate: Candidate) -> TimedEvaluation:
     """The result of a candidate that exceeded its time."""
     return _given_up(candidate, "timeout", "this candidate was not done after many times what the others took")
 
 
-def _given_up(candidate: Candidate, status: str, reason: str) -> Found:
+def _given_up(candidate: Candidate, status: str, reason: str) -> TimedEvaluation:
     return Evaluation(candidate, Verdict(status, reason, None, {}, 0.0, 0)), 0.0, ""

@@ -65,8 +65,8 @@ class Journal:
             if evaluation is None and generation <= self._written:
                 raise self._damaged(f"{place} is missing among later ones, so the file was edited or damaged")
             if evaluation is not None and evaluation.candidate != candidate:
-                rule = "is not the vector that this search asks for, so it was edited or begun with other versions"
-                raise self._damaged(f"{place} {rule}")
+                rule = "is not the vector that this search asks for"
+                raise self._damaged(f"{place} {rule}; it was edited, or the search was started with other versions")
         return found
 
     def arrived(self, evaluation: Evaluation) -> None:

@@ -15,12 +15,12 @@ from gaitsim.simulation.outcome import Outcome
 COMPARED = ("status", "score", "metrics", "steps")  # what two equal runs have in common
 
 
-def read_rows(folder: Path, begun: bool = False) -> list[dict[str, Any]]:
+def read_rows(folder: Path, incomplete: bool = False) -> list[dict[str, Any]]:
     """Read the runs of a result.
 
     Args:
         folder: The result.
-        begun: Whether to skip an incomplete last line, which a writer that died may have left.
+        incomplete: Whether to skip an incomplete last line, which a writer that died may have left.
 
     Raises:
         BadResult: The runs cannot be read.
@@ -29,7 +29,7 @@ def read_rows(folder: Path, begun: bool = False) -> list[dict[str, Any]]:
     rows: list[dict[str, Any]] = []
     try:
         text = path.read_text(encoding="utf-8")
-        text = text[: text.rfind("\n") + 1] if begun else text
+        text = text[: text.rfind("\n") + 1] if incomplete else text
         for number, line in enumerate(text.splitlines(), start=1):
             row = json.loads(line)
             tables = (row["settings"], row["metrics"], row.get("values", {}))

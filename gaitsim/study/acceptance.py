@@ -30,7 +30,7 @@ RELATIVE = 1e-6  # results have no tolerances; rounding changes a steady gait by
 
 
 @dataclass(frozen=True)
-class Tested:
+class Effect:
     """The effect of the component on one of its users.
 
     Attributes:
@@ -47,7 +47,7 @@ class Tested:
     error: GaitsimError | None = None
 
 
-def tested(reference: str, scope: Scope, trusted: bool, listener: Listener) -> Iterator[Tested]:
+def tested(reference: str, scope: Scope, trusted: bool, listener: Listener) -> Iterator[Effect]:
     """Run every user of a component with its present version, and compare with its record.
 
     A user that cannot be run does not stop the others.
@@ -67,17 +67,17 @@ def tested(reference: str, scope: Scope, trusted: bool, listener: Listener) -> I
     for user in using_results(reference, scope, listener):
         name = shown(user.folder)
         if user.version == version:
-            yield Tested("result", name, user.version, "same")
+            yield Effect("result", name, user.version, "same")
             continue
         try:
             check_trust(user.bundle, trusted)
             differs = tuple(_of_result(user, _with(user.bundle, reference, texts)))
-            yield Tested("result", name, user.version, "differs" if differs else "holds", differs)
+            yield Effect("result", name, user.version, "differs" if differs else "holds", differs)
         except GaitsimError as error:
-            yield Tested("result", name, user.version, "error", error=error)
+            yield Effect("result", name, user.version, "error", error=error)
 
 
-def _of_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[Tested]:
+def _of_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[Effect]:
     """The specs that use it; for those without a record, only their names."""
     users = list(using_specs(reference, scope, listener))
     with_record = [user.archived for user in users if record_path(user.archived.path).is_file()]
@@ -85,12 +85,12 @@ def _of_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[Test
     for user in users:
         name, verdict = user.archived.name, verdicts.get(user.archived.path)
         if verdict is None:
-            yield Tested("spec", name, "", "unrecorded")
+            yield Effect("spec", name, "", "unrecorded")
         elif verdict.error is not None:
-            yield Tested("spec", name, "", "error", error=verdict.error)
+            yield Effect("spec", name, "", "error", error=verdict.error)
         else:
             before = read_record(user.archived.path).made_from.components.get(reference, "")
-            yield Tested("spec", name, before, "differs" if verdict.differs else "holds", verdict.differs)
+            yield Effect("spec", name, before, "differs" if verdict.differs else "holds", verdict.differs)
 
 
 def _present(library: Library) -> dict[str, str]:

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True)
-class Wanted:
+class AnalysisRequest:
     """What an analysis makes.
 
     Attributes:
@@ -76,7 +76,9 @@ class Analysis:
         return f"<Analysis of {len(self.replays)} runs: {len(self.products.figures)} figures>"
 
 
-def analyzed(openings: Sequence[Opening], candidates: Sequence[str], wanted: Wanted, listener: Listener) -> Analysis:
+def analyzed(
+    openings: Sequence[Opening], candidates: Sequence[str], wanted: AnalysisRequest, listener: Listener
+) -> Analysis:
     """Run results or specs once more, and make what is wanted of them.
 
     What cannot be made is reported in the products' `faults`; everything else is made.
@@ -243,7 +245,7 @@ def writable(folder: Path) -> Path:
         raise CannotSave(f"{folder}: nothing can be written here ({reason}); choose another --folder.") from error
 
 
-def _video_options(wanted: Wanted) -> VideoOptions:
+def _video_options(wanted: AnalysisRequest) -> VideoOptions:
     """Read the options of the video.
 
     Raises:

@@ -20,7 +20,7 @@ from gaitsim.whole import write_whole
 Cell = str | float | int
 
 
-class Ended(Protocol):
+class RowEnding(Protocol):
     """A row after its run."""
 
     @property
@@ -41,7 +41,7 @@ class Cells:
     rows: tuple[tuple[Cell, ...], ...]
 
 
-def cells_of(model: Model, rows: Sequence[tuple[Row, Ended]]) -> Cells:
+def cells_of(model: Model, rows: Sequence[tuple[Row, RowEnding]]) -> Cells:
     """Make the table of rows.
 
     Args:

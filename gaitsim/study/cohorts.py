@@ -28,10 +28,10 @@ from gaitsim.spec.schema import optimize_section
 from gaitsim.spec.study import variants
 from gaitsim.study.bodies import Body, bodies_in
 from gaitsim.study.cohort_table import Cells, cells_of, write_cells
-from gaitsim.study.keeping import Keeping
 from gaitsim.study.listening import Listener
 from gaitsim.study.opened import Opened
 from gaitsim.study.opening import Opening
+from gaitsim.study.saver import RunSaver
 from gaitsim.study.workplace import Task, Workplace
 
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ _TABLE = "table.csv"
 
 
 @dataclass(frozen=True)
-class Asked:
+class CohortRequest:
     """A request for a cohort: a table of bodies, values of devices as ADDRESS=VALUES, and how rows are tuned again.
 
     Attributes:
@@ -70,7 +70,7 @@ class Asked:
 
 
 @dataclass(frozen=True)
-class Found:
+class RowResult:
     """The result of a row: how it ended, the evaluations of its search, and the tuned values that the search found."""
 
     outcome: Outcome
@@ -99,14 +99,14 @@ class CohortRuns:
     model: Model
     mode: Mode
     metrics: Sequence[str]
-    keeping: Keeping
+    saver: RunSaver
     notices: Sequence[str] = ()
-    found: dict[int, Found] = field(default_factory=dict)
+    found: dict[int, RowResult] = field(default_factory=dict)
 
     @property
     def folder(self) -> Path | None:
         """The result folder; None if the rows were not saved."""
-        return self.keeping.folder
+        return self.saver.folder
 
     @property
     def bodies(self) -> list[str]:
@@ -134,7 +134,7 @@ class CohortRuns:
     def run(self, workplace: Workplace, listener: Listener) -> None:
         """Run all rows, save each when it ends, and write the table and its figures.
 
-        An error of saving is in `keeping.error`.
+        An error of saving is in `saver.error`.
 
         Args:
             workplace: Where rows are evaluated.
@@ -149,16 +149,16 @@ class CohortRuns:
             for i, found in self._endings(workplace, listener):
                 self.found[i] = found
                 more = {"body": rows[i].body, "evaluations": found.evaluations, "values": dict(found.values)}
-                self.keeping.add(rows[i].settings, found.outcome, more)
+                self.saver.add(rows[i].settings, found.outcome, more)
                 hear(len(self.found), len(rows))
         except BaseException:
             self._close("interrupted")
             raise
         self._close("complete")
-        with self.keeping.noting():
+        with self.saver.errors_kept():
             self._draw()
 
-    def _endings(self, workplace: Workplace, listener: Listener) -> Iterator[tuple[int, Found]]:
+    def _endings(self, workplace: Workplace, listener: Listener) -> Iterator[tuple[int, RowResult]]:
         """The results of the rows that are not known yet, as they end."""
         missing = [Candidate(0, i, (float(i),)) for i in range(len(self.cohort.rows)) if i not in self.found]
         if not missing:
@@ -175,11 +175,11 @@ class CohortRuns:
     def _close(self, status: str) -> None:
         """Sort the saved rows, and write the table."""
         places = {_key(row.body, row.settings): i for i, row in enumerate(self.cohort.rows)}
-        self.keeping.arrange(lambda row: places[_key(row["body"], row["settings"])])
+        self.saver.arrange(lambda row: places[_key(row["body"], row["settings"])])
         if self.folder and self.found:
-            with self.keeping.noting():
+            with self.saver.errors_kept():
                 write_cells(self.folder / _TABLE, self.cells())
-        self.keeping.close(status)
+        self.saver.close(status)
 
     def _draw(self) -> None:
         if self.folder is None:
@@ -195,7 +195,7 @@ class CohortRuns:
             raise CannotSave(f"{self.folder}: a figure cannot be written ({error.strerror or error}).") from error
 
 
-def cohort_runs(opening: Opening, asked: Asked, mode: Mode, root: Path | None) -> CohortRuns:
+def cohort_runs(opening: Opening, asked: CohortRequest, mode: Mode, root: Path | None) -> CohortRuns:
     """Prepare a cohort. Nothing is run yet.
 
     Args:
@@ -227,9 +227,9 @@ def cohort_runs(opening: Opening, asked: Asked, mode: Mode, root: Path | None) -
     others, faults = _models(opened, cohort, bodies)
     models = [model, *others]
     more = {"cohort": {"bodies": str(asked.bodies), "metrics": list(asked.metrics)}}
-    keeping = Keeping(root, opened, models, mode, more=more)
+    saver = RunSaver(root, opened, models, mode, more=more)
     notices = [*dict.fromkeys([*opened.notices, *model.notices, *(f"warning: {fault}" for fault in faults)])]
-    return CohortRuns(cohort, opened.bundle(models), model, mode, asked.metrics, keeping, notices)
+    return CohortRuns(cohort, opened.bundle(models), model, mode, asked.metrics, saver, notices)
 
 
 def resumed_cohort(opening: Opening) -> CohortRuns:
@@ -245,10 +245,10 @@ def resumed_cohort(opening: Opening) -> CohortRuns:
         CannotSave: The folder cannot be written.
     """
     if not opening.names_result:
-        rule = f"{opening.path} is a spec; name the result of the cohort that was begun"
+        rule = f"{opening.path} is a spec; name the result folder of the cohort"
         raise Usage(f"--resume: {rule}, such as results/2026-11-22-walking-3f9c.")
     if opening.settings or opening.folders:
-        raise Usage(f"--resume: {opening.path} goes on as it was begun; leave out --set and --library.")
+        raise Usage(f"--resume: {opening.path} continues with its own settings; leave out --set and --library.")
     opened = opening.open()
     manifest, bundle = read_result(opening.path)
     cohort = cohort_of(bundle)
@@ -256,11 +256,11 @@ def resumed_cohort(opening: Opening) -> CohortRuns:
     if changed:
         rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
         raise BadResult(f"{opening.path}: {rule}; install those, or start again.")
-    model, rows = opened.model(), read_rows(opening.path, begun=True)
+    model, rows = opened.model(), read_rows(opening.path, incomplete=True)
     mode: Mode = "normal" if manifest["mode"] == "normal" else "rapid"
-    keeping = Keeping(None, replace(opened, more={COHORT: bundle.files[COHORT]}), [model], mode)
+    saver = RunSaver(None, replace(opened, more={COHORT: bundle.files[COHORT]}), [model], mode)
     metrics = [name for name in manifest.get("cohort", {}).get("metrics", []) if name in model.metrics]
-    runs = CohortRuns(cohort, bundle, model, mode, metrics, keeping)
+    runs = CohortRuns(cohort, bundle, model, mode, metrics, saver)
     places = {_key(row.body, row.settings): i for i, row in enumerate(cohort.rows)}
     for row in rows:
         place = places.get(_key(row.get("body"), row["settings"]))
@@ -268,7 +268,7 @@ def resumed_cohort(opening: Opening) -> CohortRuns:
             rule = "a run in it is of no row of its cohort, so it was edited; restore it from a copy"
             raise BadResult(Fault(f"{rule}.", Mark(str(opening.path / "evaluations.jsonl"))))
         runs.found[place] = _recorded(row, model.simulate.step)
-    keeping.go_on(opening.path, rows)
+    saver.go_on(opening.path, rows)
     runs.notices = [f"resuming {opening.path}: {len(rows)} of {len(cohort.rows)} rows are in it"]
     return runs
 
@@ -328,7 +328,7 @@ def _check_metrics(metrics: Sequence[str], model: Model) -> None:
             raise Usage(f"--metric {name}: there is no such metric. {did_you_mean(name, model.metrics)}")
 
 
-def _check_tunable(asked: Asked, model: Model, spec: Path) -> None:
+def _check_tunable(asked: CohortRequest, model: Model, spec: Path) -> None:
     """Check that rows can be tuned, if that is asked for.
 
     Raises:
@@ -343,15 +343,15 @@ def _key(body: Any, settings: Mapping[str, str]) -> str:
     return repr((body, sorted(settings.items())))
 
 
-def _found(verdict: Verdict, step: float) -> Found:
+def _found(verdict: Verdict, step: float) -> RowResult:
     metrics = {name: math.nan if value is None else value for name, value in verdict.metrics.items()}
     outcome = Outcome(verdict.status, verdict.reason, verdict.steps, step, metrics, verdict.score, 0.0)
     if isinstance(verdict, RowVerdict):
-        return Found(outcome, verdict.evaluations, verdict.values)
-    return Found(outcome)
+        return RowResult(outcome, verdict.evaluations, verdict.values)
+    return RowResult(outcome)
 
 
-def _recorded(row: Mapping[str, Any], step: float) -> Found:
+def _recorded(row: Mapping[str, Any], step: float) -> RowResult:
     metrics = {name: math.nan if value is None else float(value) for name, value in row["metrics"].items()}
     outcome = Outcome(row["status"], row["reason"], row["steps"], step, metrics, row["score"], 0.0)
-    return Found(outcome, int(row.get("evaluations", 0)), dict(row.get("values", {})))
+    return RowResult(outcome, int(row.get("evaluations", 0)), dict(row.get("values", {})))

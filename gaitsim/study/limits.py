@@ -20,10 +20,10 @@ from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode
 from gaitsim.spec.inheritance import override
 from gaitsim.spec.study import Span, column, span
-from gaitsim.study.keeping import Keeping
 from gaitsim.study.listening import Listener
 from gaitsim.study.opened import Opened
 from gaitsim.study.opening import Opening, only_row, started_from
+from gaitsim.study.saver import RunSaver
 from gaitsim.study.starts import Starts
 from gaitsim.text.document import MappingNode
 
@@ -109,7 +109,7 @@ class LimitRuns:
     Attributes:
         settings: The settings of the spec, as those of a row of a study.
         rows: The rows of all runs, in order.
-        keeping: Saves the runs.
+        saver: Saves the runs.
         before: The runs of an earlier, interrupted search.
     """
 
@@ -120,7 +120,7 @@ class LimitRuns:
     until: Until
     mode: Mode
     starts: Starts
-    keeping: Keeping
+    saver: RunSaver
     before: list[Row] = field(default_factory=list)
     rows: list[Row] = field(default_factory=list)
 
@@ -131,7 +131,7 @@ class LimitRuns:
     def run(self, listener: Listener) -> None:
         """Find all limits, and save each run when it ends.
 
-        An error of saving is in `keeping.error`.
+        An error of saving is in `saver.error`.
 
         Raises:
             SimulationFailed: A range fails at its first end.
@@ -148,12 +148,12 @@ class LimitRuns:
                     hear(len(self.rows), most)
                 self._check_begun()
         except KeyboardInterrupt:
-            self.keeping.close("interrupted")
+            self.saver.close("interrupted")
             raise
         except SimulationFailed:
-            self.keeping.close()
+            self.saver.close()
             raise
-        self.keeping.close()
+        self.saver.close()
         hear(most, most)
 
     @property
@@ -164,7 +164,7 @@ class LimitRuns:
     @property
     def folder(self) -> Path | None:
         """The result folder; None if the runs were not saved."""
-        return self.keeping.folder
+        return self.saver.folder
 
     def _outcomes(self, asked: Sequence[tuple[Limit, float]], listener: Listener) -> Iterator[Outcome]:
         """The outcomes that are asked for, in order. Those that are known are not run again."""
@@ -180,7 +180,7 @@ class LimitRuns:
                     listener.say(warning)
             self.rows.append((each, outcome))
             if found is None:
-                self.keeping.add(each, outcome)
+                self.saver.add(each, outcome)
             yield outcome
 
     def _known(self, settings: Mapping[str, str]) -> Outcome | None:
@@ -264,22 +264,24 @@ def resumed(opening: Opening, listener: Listener) -> LimitRuns:
         CannotSave: The folder cannot be written.
     """
     if not opening.names_result:
-        rule = f"{opening.path} is a spec; name the result of the limits that were begun"
+        rule = f"{opening.path} is a spec; name the result folder of the limits"
         raise Usage(f"--resume: {rule}, such as results/2026-11-22-walking-3f9c.")
     if opening.settings or opening.folders or opening.candidate is not None:
-        raise Usage(f"--resume: {opening.path} goes on as it was begun; leave out --set, --library and --candidate.")
+        raise Usage(
+            f"--resume: {opening.path} continues with its own settings; leave out --set, --library and --candidate."
+        )
     opened = opening.open()
     asked, limits = _recorded(opening.path, opened.manifest)
     changed = changed_versions(dict(opened.manifest))
     if changed:
         rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
         raise BadResult(f"{opening.path}: {rule}; install those, or start again.")
-    rows = read_rows(opening.path, begun=True)
+    rows = read_rows(opening.path, incomplete=True)
     mode: Mode = "normal" if opened.manifest["mode"] == "normal" else "rapid"
     runs = _limit_runs(opened, opening, limits, asked, mode, None, listener)
     step = opened.model(runs.document).simulate.step
     runs.before = [({**row["settings"]}, outcome_of(row, step)) for row in rows]
-    runs.keeping.go_on(opening.path, rows)
+    runs.saver.go_on(opening.path, rows)
     listener.say(f"resuming {opening.path}: {len(rows)} runs are in it")
     return runs
 
@@ -294,7 +296,7 @@ def _recorded(folder: Path, manifest: Mapping[str, Any]) -> tuple[dict[str, Any]
     if "limit" not in manifest:
         raise BadResult(f"{folder}: this is not a result of gaitsim limit, so there is nothing to resume.")
     try:
-        asked = _Asked.model_validate(manifest["limit"])
+        asked = _RecordedRequest.model_validate(manifest["limit"])
         scan = Scan(asked.points, asked.tolerance)
         scan.check()
         return asked.model_dump(), _limits(asked.vary, asked.over, scan)
@@ -327,7 +329,7 @@ def _limits(vary: Sequence[str], over: str | None, scan: Scan) -> list[Limit]:
     return [Limit(varied, ends, Bracket(scan.points, scan.tolerance), row) for row in rows for varied, ends in ranges]
 
 
-class _Asked(BaseModel):
+class _RecordedRequest(BaseModel):
     """The request as the manifest has it."""
 
     model_config = ConfigDict(extra="forbid", strict=True)
@@ -356,5 +358,5 @@ def _limit_runs(
     until = until_of(asked["until"], model)
     over = [_with_settings(row.document, limit.beside) for limit in limits]
     models = [model, *(opened.model(each) for each in over if each is not row.document)]
-    keeping = Keeping(root, opened, models, mode, more={"limit": asked})
-    return LimitRuns(opened, row.document, row.settings, limits, until, mode, Starts(opened), keeping)
+    saver = RunSaver(root, opened, models, mode, more={"limit": asked})
+    return LimitRuns(opened, row.document, row.settings, limits, until, mode, Starts(opened), saver)

@@ -195,7 +195,7 @@ def optimize(
         The search: `folder`, `score`, `values`, `progress`.
     """
     from gaitsim.study.adoption import adopted
-    from gaitsim.study.searches import Request, begun, check_adoption, resumed
+    from gaitsim.study.searches import Request, check_adoption, resumed, started
     from gaitsim.study.workplace import Workplace
 
     opened = replace(opening(path, set, library, trust=trust, results=results), tuned=False)
@@ -204,7 +204,7 @@ def optimize(
     file = None if scheduler_file is None else Path(scheduler_file)
     workplace = Workplace(workers, scheduler is not None or file is not None, scheduler, file)
     workplace.check()
-    tuning = (resumed if resume else begun)(request, _root(results))
+    tuning = (resumed if resume else started)(request, _root(results))
     began, log = time.perf_counter(), LogListener()
     progress = tuning.run(workplace, lambda progress: None, log.say)
     wall = time.perf_counter() - began
@@ -232,18 +232,18 @@ def analyze(
         trust: Whether to run components of a result that this machine does not know.
         library: Folders of more components.
         results: The folder in which names of results are looked up; what is made of specs goes to `analysis` in it.
-        wanted: Fields of `gaitsim.study.analyses.Wanted`: `plot=("*.force",)`, `export=("sto",)`, `only=True` for
-            nothing else, `folder`.
+        wanted: Fields of `gaitsim.study.analyses.AnalysisRequest`: `plot=("*.force",)`, `export=("sto",)`,
+            `only=True` for nothing else, `folder`.
 
     Returns:
         `replays` with every signal, and `products` with the files; what could not be made is in `products.faults`.
     """
-    from gaitsim.study.analyses import Wanted, analyzed
+    from gaitsim.study.analyses import AnalysisRequest, analyzed
 
     many = {name: _several(value) for name, value in wanted.items() if name in _MANY}
     folder = {"folder": Path(wanted["folder"])} if wanted.get("folder") is not None else {}
     opened = [opening(path, set, library, start, trust, results=results) for path in paths]
-    return analyzed(opened, _several(candidate), Wanted(**(wanted | many | folder)), LogListener())
+    return analyzed(opened, _several(candidate), AnalysisRequest(**(wanted | many | folder)), LogListener())
 
 
 def check(

@@ -60,7 +60,7 @@ def cohort(
         The rows: `table()` (also `table.csv` in `folder`), `counts` of how they ended, `found` by row.
     """
     from gaitsim.errors import Usage
-    from gaitsim.study.cohorts import Asked, cohort_runs, resumed_cohort
+    from gaitsim.study.cohorts import CohortRequest, cohort_runs, resumed_cohort
     from gaitsim.study.workplace import Workplace
 
     opened = opening(path, set, library, start, trust, results=results)
@@ -73,9 +73,9 @@ def cohort(
         raise Usage("there is no table of bodies; name one, or resume a result.")
     else:
         root = results_folder(None if results is None else Path(results)) if save else None
-        asked = Asked(Path(bodies), ranges(vary), retune, seed, metrics)
+        asked = CohortRequest(Path(bodies), ranges(vary), retune, seed, metrics)
         runs = cohort_runs(opened, asked, mode, root)
     runs.run(workplace, LogListener())
-    if runs.keeping.error:
-        raise runs.keeping.error
+    if runs.saver.error:
+        raise runs.saver.error
     return runs

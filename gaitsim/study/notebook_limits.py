@@ -59,7 +59,7 @@ def limit(
         The limits: `limits`, each with `address`, `beside` (the value of `over`), `last` (succeeds), `first` (fails;
             None if all succeed) and `beyond`; `rows` has every run.
     """
-    from gaitsim.study.begun_limits import begun_or_resumed
+    from gaitsim.study.new_limits import new_or_resumed
 
     opened = opening(path, set, library, start, trust, candidate, results)
     ranges = [f"{address}={ends}" for address, ends in vary.items()] if vary is not None else None
@@ -74,10 +74,10 @@ def limit(
         "from": origin,
     }
     root = results_folder(None if results is None else Path(results)) if save else None
-    runs = begun_or_resumed(opened, asked, resume, root, LogListener())
+    runs = new_or_resumed(opened, asked, resume, root, LogListener())
     runs.run(LogListener())
-    if runs.keeping.error:
-        raise runs.keeping.error
+    if runs.saver.error:
+        raise runs.saver.error
     return runs
 
 

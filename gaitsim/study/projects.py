@@ -52,7 +52,7 @@ extends: {origin}.yaml
 _README = """\
 # {name}
 
-Begun by {author} on {day} from {where}.
+Started by {author} on {day} from {where}.
 
 | file | what it is |
 |---|---|
@@ -113,7 +113,7 @@ def _read(path: Path) -> Project:
 
 
 @dataclass(frozen=True)
-class Begun:
+class NewProject:
     """A new project: its files by path, and the components that were copied, with the reason."""
 
     project: Project
@@ -121,7 +121,7 @@ class Begun:
     copied: Mapping[str, str]
 
 
-def new_project(name: str, origin: str, place: Path, results: Path | None = None, trusted: bool = False) -> Begun:
+def new_project(name: str, origin: str, place: Path, results: Path | None = None, trusted: bool = False) -> NewProject:
     """Make a project in the lab that a folder belongs to. Without a lab, the folder becomes one.
 
     Args:
@@ -161,7 +161,7 @@ def new_project(name: str, origin: str, place: Path, results: Path | None = None
     marker = {} if (lab / LAB).is_file() else {lab / LAB: _LAB_TEXT}
     files = marker | {folder / path: text for path, text in texts.items()}
     write_new(files, "give the command in a folder that you may write to")
-    return Begun(project, tuple(files), copied)
+    return NewProject(project, tuple(files), copied)
 
 
 def _free_folder(name: str, lab: Path) -> Path:
@@ -177,7 +177,7 @@ def _free_folder(name: str, lab: Path) -> Path:
     taken = next((p for p in sorted((lab / _PROJECTS).glob("*")) if p.name.lower() == name.lower()), None)
     if taken is not None:
         known = _read(taken / PROJECT) if (taken / PROJECT).is_file() else None
-        by = f", begun by {known.author} on {known.date}" if known else ""
+        by = f", started by {known.author} on {known.date}" if known else ""
         raise Usage(f"{name}: {taken} is there already{by}; nothing was changed. Choose another name.")
     return folder
 

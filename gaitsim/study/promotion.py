@@ -23,7 +23,7 @@ from gaitsim.components.review import review
 from gaitsim.components.skeleton import test_of
 from gaitsim.errors import Fault, GaitsimError, InvalidComponent, Mark, SimulationFailed, Usage
 from gaitsim.results.store import CannotSave
-from gaitsim.study.acceptance import Tested, tested
+from gaitsim.study.acceptance import Effect, tested
 from gaitsim.study.listening import Listener
 from gaitsim.study.uses import Scope
 from gaitsim.whole import write_whole
@@ -65,7 +65,7 @@ class Promoted:
 
     files: tuple[Path, ...]
     removed: tuple[Path, ...]
-    users: tuple[Tested, ...]
+    users: tuple[Effect, ...]
 
 
 class Changes(GaitsimError):
@@ -73,7 +73,7 @@ class Changes(GaitsimError):
 
     exit_code = SimulationFailed.exit_code
 
-    def __init__(self, message: str, users: tuple[Tested, ...]) -> None:
+    def __init__(self, message: str, users: tuple[Effect, ...]) -> None:
         super().__init__(message)
         self.users = users
 
@@ -266,7 +266,7 @@ def _run_test(staged: Path, own: Path) -> None:
         raise InvalidComponent(Fault(f"{rule}:\n{told}", Mark(shown(own))))
 
 
-def _users(request: Request, stage: Path, listener: Listener) -> tuple[Tested, ...]:
+def _users(request: Request, stage: Path, listener: Listener) -> tuple[Effect, ...]:
     """The results of the users of the present component with the new version."""
     scope = Scope(request.scope.words, request.scope.results, (stage, *request.scope.folders))
     return tuple(tested(request.reference, scope, False, listener))

@@ -12,7 +12,7 @@ from gaitsim.errors import GaitsimError, InvalidComponent, InvalidSpec, Usage
 from gaitsim.model import Model
 from gaitsim.spec.study import variants
 from gaitsim.study.draws import drawn_models
-from gaitsim.study.keeping import Keeping
+from gaitsim.study.saver import RunSaver
 from gaitsim.study.starts import Starts
 from gaitsim.study.times import seconds_of
 
@@ -102,7 +102,7 @@ class Runs:
     out: Path | None
     spacing: float | None
     starts: Starts
-    keeping: Keeping
+    saver: RunSaver
     notices: list[str]
     outcomes: list[Outcome] = field(default_factory=list)
 
@@ -119,12 +119,12 @@ class Runs:
     @property
     def folder(self) -> Path | None:
         """The result folder; None if the runs were not saved."""
-        return self.keeping.folder
+        return self.saver.folder
 
     @property
     def unsaved(self) -> GaitsimError | None:
         """Why the runs or the signals could not be saved; None if they were."""
-        return self.keeping.error
+        return self.saver.error
 
     @property
     def failed(self) -> bool:
@@ -159,10 +159,10 @@ class Runs:
         try:
             for row, outcome in zip(self.rows, self._outcomes(listener), strict=True):
                 self.outcomes.append(outcome)
-                self.keeping.add(row.settings, outcome)
-            self.keeping.close()
+                self.saver.add(row.settings, outcome)
+            self.saver.close()
         except KeyboardInterrupt:
-            self.keeping.close("interrupted")
+            self.saver.close("interrupted")
             raise
         self._save_signals()
 
@@ -195,7 +195,7 @@ class Runs:
             return
         from gaitsim.results.store import save_trajectory
 
-        with self.keeping.noting():
+        with self.saver.errors_kept():
             (outcome,) = self.outcomes
             save_trajectory(self.out, outcome if self.spacing is None else outcome.every(self.spacing))
 
@@ -242,8 +242,8 @@ def prepared(
         notices += unmoved
         for notice in unmoved:
             listener.say(notice)
-    keeping = Keeping(places.results, opened, models, mode, draws)
-    return Runs(rows, models, simulated, mode, draws, places.out, spacing, Starts(opened), keeping, notices)
+    saver = RunSaver(places.results, opened, models, mode, draws)
+    return Runs(rows, models, simulated, mode, draws, places.out, spacing, Starts(opened), saver, notices)
 
 
 def _model(opened: Opened, row: Variant) -> Model | Invalid:

@@ -74,7 +74,7 @@ def check_adoption(opening: Opening, adopt: bool, force: bool) -> None:
         raise Usage(f"--adopt writes beside a spec, and {opening.path} is a result; name the spec, with --resume.")
 
 
-def begun(request: Request, root: Path) -> Tuning:
+def started(request: Request, root: Path) -> Tuning:
     """Begin a search in a new result folder."""
     path = request.opening.path
     if request.opening.names_result:
@@ -165,9 +165,9 @@ def _check_same_search(request: Request, search: dict[str, Any], mode: str) -> N
         asked = getattr(request, name)
         if asked is not None and asked != search[name]:
             move = "leave it out, or start a new search"
-            raise Usage(f"--{name} {asked}: this search was begun with {search[name]}; {move}.")
+            raise Usage(f"--{name} {asked}: this search was started with {search[name]}; {move}.")
     if request.mode is not None and request.mode != mode:
-        raise Usage(f"--mode {request.mode}: this search was begun in {mode} mode; leave it out.")
+        raise Usage(f"--mode {request.mode}: this search was started in {mode} mode; leave it out.")
 
 
 def _recorded_search(folder: Path, manifest: dict[str, Any]) -> dict[str, Any]:
@@ -237,7 +237,7 @@ def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
     changed = sorted(path for path in {*now, *before} if now.get(path) != before.get(path))
     if changed:
         words = ["spec.yaml (or its --set)" if path == SPEC else path for path in changed]
-        rule = f"what {folder} was begun with has changed since: {', '.join(words)}"
+        rule = f"what {folder} was started with has changed since: {', '.join(words)}"
         old = command("optimize", folder, "--resume")
         move = f"continue the old one: {old}; or start a new search with --from {quote(str(folder))}"
         raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.opening.path))))

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from gaitsim.analysis.searches.convergence import (
-    Tuned,
+    TunedParameter,
     convergence_figures,
     scores_of,
     tuned_figures,
@@ -56,7 +56,7 @@ def test_a_generation_that_failed_as_a_whole_leaves_a_gap() -> None:
 
 
 def test_the_place_between_bounds() -> None:
-    tuned = Tuned("gain", "1", 2, 6, 3, 5, 5, 0.5)
+    tuned = TunedParameter("gain", "1", 2, 6, 3, 5, 5, 0.5)
     assert [tuned.share(value) for value in (2, 3, 6)] == [0, 0.25, 1]
 
 

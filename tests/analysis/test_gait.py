@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from gaitsim.analysis.gait.comparison import followed, later, matched_moments, norm_numbers
+from gaitsim.analysis.gait.comparison import compared_signals, later, matched_moments, norm_numbers
 from gaitsim.analysis.gait.figures import gait_figures, lacking_gait, symmetry_pairs
 from gaitsim.analysis.gait.footsteps import double_support, margin, steps, symmetry, symmetry_index
 from gaitsim.analysis.gait.joint_moments import joint_moment, joint_power
@@ -117,7 +117,7 @@ def test_a_leg_needs_contacts_on_its_side_and_two_strides() -> None:
 
 
 def test_what_is_followed_is_read_from_the_measures() -> None:
-    found = followed(walk({}))
+    found = compared_signals(walk({}))
     assert [one.name for one in found] == ["hip flexion", "knee flexion", "ankle dorsiflexion"]
     assert [one.signal for one in found] == ["leg_r.hip.angle", "leg_r.knee.angle", "leg_r.ankle.angle"]
     assert [(round(math.degrees(one.zero)), one.direction) for one in found] == [(180, -1), (180, -1), (90, -1)]

@@ -3,7 +3,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from gaitsim.analysis.hopping.figures import Dropped, Hops, dropped, hopping_figures, hops_of
+from gaitsim.analysis.hopping.figures import ApexPairs, Hops, dropped, hopping_figures, hops_of
 from gaitsim.analysis.replays.replay import Replay
 from tests.analysis.replays import cut, of_spec, of_text
 
@@ -82,10 +82,10 @@ def test_the_map_of_many_starts_holds_the_hops_of_one_run() -> None:
 
 def test_fixed_points_of_a_line_and_of_lost_starts() -> None:
     before = np.array([0.1, 0.2, 0.3, 0.4])
-    (point,) = Dropped(before, 0.5 * before + 0.125).fixed_points
+    (point,) = ApexPairs(before, 0.5 * before + 0.125).fixed_points
     assert (point.value, point.slope) == (pytest.approx(0.25), pytest.approx(0.5))
-    assert Dropped(before, np.full(4, np.nan)).fixed_points == []
-    assert Dropped(before, before + 1).fixed_points == []
+    assert ApexPairs(before, np.full(4, np.nan)).fixed_points == []
+    assert ApexPairs(before, before + 1).fixed_points == []
 
 
 def test_the_figures_of_a_hopper(hopper: Replay) -> None:

@@ -285,7 +285,7 @@ def test_no_text_in_utf_8(capsys: pytest.CaptureFixture[str]) -> None:
             "bodies.csv begins a new cohort, and --resume continues an old one",
         ),
         (("stone.yaml", "--retune", "5", "--resume"), 2, "--retune begins a new cohort, and --resume continues an old"),
-        (("stone.yaml", "--resume"), 2, "--resume: stone.yaml is a spec; name the result of the cohort that was begun"),
+        (("stone.yaml", "--resume"), 2, "--resume: stone.yaml is a spec; name the result folder of the cohort"),
         (
             ("stone.yaml", "bodies.csv", "--vary", "body_mass=1 kg,2 kg"),
             3,

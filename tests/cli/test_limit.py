@@ -242,7 +242,7 @@ def test_a_start_beyond_reason_is_refused(spec: Path, capsys: pytest.CaptureFixt
         ),
         (
             ("--resume",),
-            "--resume: stone.yaml is a spec; name the result of the limits that were begun, such as "
+            "--resume: stone.yaml is a spec; name the result folder of the limits, such as "
             "results/2026-11-22-walking-3f9c.",
         ),
         (("--resume", "--points", "3"), "--points begins new limits, and --resume continues old ones; leave one out."),

@@ -94,8 +94,8 @@ def test_projects_are_found_from_anywhere_below_the_lab(
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["project", "alice"], "alice: {lab}/projects/alice is there already, begun by "),
-        (["project", "ALICE"], "ALICE: {lab}/projects/alice is there already, begun by "),
+        (["project", "alice"], "alice: {lab}/projects/alice is there already, started by "),
+        (["project", "ALICE"], "ALICE: {lab}/projects/alice is there already, started by "),
         (
             ["project", "taken"],
             "taken: {lab}/projects/taken is there already; nothing was changed. Choose another name.",

@@ -26,7 +26,7 @@ from gaitsim.units import parse_unit
 from .searches import signed
 
 PROBLEM = Problem(tuple(Variable(f"x{i}", parse_unit("1"), -2.0, 3.0, 1.0, 0.5) for i in range(3)))
-Found = tuple[Evaluation, float, str]
+TimedEvaluation = tuple[Evaluation, float, str]
 
 
 class Crash(Exception):
@@ -49,7 +49,7 @@ class Evaluate:
         self.acknowledged: list[Candidate] = []
         self._crash_after = crash_after
 
-    def __call__(self, candidates: Any) -> Iterator[Found]:
+    def __call__(self, candidates: Any) -> Iterator[TimedEvaluation]:
         for candidate in reversed(candidates):
             if len(self.made) >= self._crash_after:
                 raise Crash
@@ -104,7 +104,7 @@ def test_a_search_that_ends_anywhere_goes_on(tmp_path: Path, undisturbed: dict[s
 
 def test_a_journal_is_the_same_in_any_order_of_arrival(tmp_path: Path, undisturbed: dict[str, bytes]) -> None:
     class Forwards(Evaluate):
-        def __call__(self, candidates: Any) -> Iterator[Found]:
+        def __call__(self, candidates: Any) -> Iterator[TimedEvaluation]:
             return ((sphere(c), 0.0, "here") for c in candidates)
 
     search(tmp_path, Forwards())
@@ -116,7 +116,7 @@ def test_the_start_is_evaluated_together_with_the_first_generation(tmp_path: Pat
     calls: list[set[int]] = []
 
     class Watched(Evaluate):
-        def __call__(self, candidates: Any) -> Iterator[Found]:
+        def __call__(self, candidates: Any) -> Iterator[TimedEvaluation]:
             calls.append({candidate.generation for candidate in candidates})
             return super().__call__(candidates)
 

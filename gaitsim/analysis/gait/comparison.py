@@ -31,7 +31,7 @@ _MOMENT_OF = {
 
 
 @dataclass(frozen=True)
-class Followed:
+class ComparedSignal:
     """A signal that a measure of the model compares with a recorded curve, for both sides.
 
     Attributes:
@@ -59,7 +59,7 @@ class Followed:
 
 
 @dataclass(frozen=True)
-class Matched:
+class ComparedQuantity:
     """One quantity of both legs over the gait cycle, with that of people.
 
     Attributes:
@@ -81,10 +81,10 @@ def library_of(replay: Replay) -> Library:
     return Library((*own, *library_folders(None if replay.folder else replay.path)))
 
 
-def followed(replay: Replay) -> list[Followed]:
+def compared_signals(replay: Replay) -> list[ComparedSignal]:
     """The signals that the gait_curve measures of a model follow, each once for both sides."""
     model, library = replay.model, library_of(replay)
-    found: dict[tuple[str, str], Followed] = {}
+    found: dict[tuple[str, str], ComparedSignal] = {}
     for part in model.parts:
         if part.type.reference != _GAIT_CURVE:
             continue
@@ -94,13 +94,13 @@ def followed(replay: Replay) -> list[Followed]:
         norm = _norm(model, part, signal, library)
         values = model.values()
         zero, direction = (values[part.numbers[name]] for name in ("zero", "direction"))
-        found.setdefault((norm.name, on_side(signal, "l")), Followed(norm, signal, zero, direction))
+        found.setdefault((norm.name, on_side(signal, "l")), ComparedSignal(norm, signal, zero, direction))
     return list(found.values())
 
 
 def runs(replay: Replay) -> bool:
     """Whether a model is compared with runners, so that data of walking does not apply."""
-    return any(one.norm.name.startswith(RUNNING) for one in followed(replay))
+    return any(one.norm.name.startswith(RUNNING) for one in compared_signals(replay))
 
 
 def _norm(model: Model, part: Part, signal: str, library: Library) -> Norm:
@@ -119,17 +119,17 @@ def _unit(model: Model, signal: str) -> str:
     return part.type.outputs[signal.rpartition(".")[2]].unit if part else "1"
 
 
-def matched_signals(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
-    """The followed signals of both legs."""
+def matched_signals(replay: Replay, legs: Sequence[Leg]) -> list[ComparedQuantity]:
+    """The compared_signals signals of both legs."""
     found = []
-    for one in followed(replay):
+    for one in compared_signals(replay):
         cycles = {leg.side: leg.over_cycle(v) for leg in legs if (v := one.on(replay, leg.side)) is not None}
-        found.append(Matched(one.name, one.norm, cycles))
+        found.append(ComparedQuantity(one.name, one.norm, cycles))
     return [one for one in found if one.cycles]
 
 
-def matched_moments(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
-    """Joint moments divided by body mass, for joints with followed angles, in the sign convention of the table of
+def matched_moments(replay: Replay, legs: Sequence[Leg]) -> list[ComparedQuantity]:
+    """Joint moments divided by body mass, for joints with compared angles, in the sign convention of the table of
     people.
 
     Returns:
@@ -138,7 +138,7 @@ def matched_moments(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
     library, found = library_of(replay), []
     if runs(replay):
         return []
-    for one in followed(replay):
+    for one in compared_signals(replay):
         column = _MOMENT_OF.get(one.norm.name.rpartition(".")[2])
         if column is None:
             continue
@@ -148,7 +148,7 @@ def matched_moments(replay: Replay, legs: Sequence[Leg]) -> list[Matched]:
             if moment is not None:
                 cycles[leg.side] = leg.over_cycle(-one.direction * moment / mass(replay, leg))
         if cycles:
-            found.append(Matched(column.replace("_", " "), read_norm(column, library, _MOMENTS), cycles))
+            found.append(ComparedQuantity(column.replace("_", " "), read_norm(column, library, _MOMENTS), cycles))
     return found
 
 
@@ -168,7 +168,7 @@ def norm_numbers(replay: Replay) -> dict[str, dict[str, dict[str, Any]]]:
     }
 
 
-def _numbers(one: Matched, side: str, count: int) -> dict[str, Any]:
+def _numbers(one: ComparedQuantity, side: str, count: int) -> dict[str, Any]:
     found, factor = one.comparison(side), parse_unit(one.norm.unit).factor
     banded = one.norm.deviation is not None
     return {

@@ -9,7 +9,14 @@ import numpy as np
 
 from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.drawings.style import FONT, GREY, above, labelled, panels, quantity
-from gaitsim.analysis.gait.comparison import Followed, Matched, followed, matched_moments, matched_signals, runs
+from gaitsim.analysis.gait.comparison import (
+    ComparedQuantity,
+    ComparedSignal,
+    compared_signals,
+    matched_moments,
+    matched_signals,
+    runs,
+)
 from gaitsim.analysis.gait.footsteps import double_support, lacks_center, margin, steps, symmetry
 from gaitsim.analysis.gait.frontal import frontal_figures
 from gaitsim.analysis.gait.joint_moments import joint_power, joint_work
@@ -57,7 +64,7 @@ def lacking_gait(replay: Replay) -> list[str]:
     if two_legs(replay) is None:
         return [f"{replay.label} takes fewer than two strides with each leg, so nothing is drawn over the gait cycle."]
     found = []
-    if not followed(replay):
+    if not compared_signals(replay):
         move = "add a measure/gait_curve for each joint"
         found.append(f"{replay.label} does not say which angles people have too, so none is compared; {move}.")
     if lacks_center(replay.model):
@@ -66,7 +73,7 @@ def lacking_gait(replay: Replay) -> list[str]:
     return found
 
 
-def _draw_matched(panel: Axes, legs: Legs, matched: Matched, unit: str) -> None:
+def _draw_matched(panel: Axes, legs: Legs, matched: ComparedQuantity, unit: str) -> None:
     factor = 1 / parse_unit(unit).factor
     draw_people(panel, matched.norm, factor)
     for leg in legs:
@@ -74,7 +81,7 @@ def _draw_matched(panel: Axes, legs: Legs, matched: Matched, unit: str) -> None:
             draw_cycle(panel, leg, matched.cycles[leg.side], factor)
 
 
-def _people_words(matched: Sequence[Matched]) -> str:
+def _people_words(matched: Sequence[ComparedQuantity]) -> str:
     bands = any(one.norm.deviation is not None for one in matched)
     sources = ", ".join(dict.fromkeys(one.norm.recorded_by for one in matched if one.norm.recorded_by))
     band = " with one standard deviation over subjects" if bands else ""
@@ -126,7 +133,7 @@ def _forces(replay: Replay, legs: Legs) -> Drawing:
 
 def _moments(replay: Replay, legs: Legs) -> list[Drawing]:
     matched = matched_moments(replay, legs)
-    joints = {one.name.split()[0]: one for one in followed(replay)}
+    joints = {one.name.split()[0]: one for one in compared_signals(replay)}
     if not matched:
         return []
     figure, axes = panels(len(matched), 2, height=1.8, share=True)
@@ -150,7 +157,7 @@ def _moments(replay: Replay, legs: Legs) -> list[Drawing]:
     return [Drawing("gait_moments", "Joint moments and powers over the gait cycle", caption, figure)]
 
 
-def _draw_power(panel: Axes, replay: Replay, legs: Legs, joint: Followed) -> str:
+def _draw_power(panel: Axes, replay: Replay, legs: Legs, joint: ComparedSignal) -> str:
     """Draw the power of a joint in W/kg.
 
     Returns:

@@ -10,7 +10,7 @@ import numpy as np
 
 from gaitsim.analysis.drawings.style import shown_unit
 from gaitsim.analysis.drawings.table import Table, shown
-from gaitsim.analysis.gait.comparison import followed, norm_numbers
+from gaitsim.analysis.gait.comparison import compared_signals, norm_numbers
 from gaitsim.analysis.gait.figures import symmetry_pairs
 from gaitsim.analysis.gait.footsteps import double_support, margin, steps, symmetry
 from gaitsim.analysis.gait.joint_moments import joint_work
@@ -98,7 +98,7 @@ def _of_pressure(replay: Replay, legs: Legs) -> Iterator[Quantity]:
 
 
 def _of_energy(replay: Replay, legs: Legs) -> Iterator[Quantity]:
-    for one in followed(replay):
+    for one in compared_signals(replay):
         joint = one.name.split()[0]
         works = [joint_work(replay, leg, on_side(one.signal, leg.side).rpartition(".")[0]) for leg in legs]
         known = {

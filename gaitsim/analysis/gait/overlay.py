@@ -11,7 +11,7 @@ import numpy as np
 
 from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.drawings.style import FONT, LINES, PALETTE, labelled, panels, shown_unit
-from gaitsim.analysis.gait.comparison import Matched, matched_moments, matched_signals
+from gaitsim.analysis.gait.comparison import ComparedQuantity, matched_moments, matched_signals
 from gaitsim.analysis.gait.legs import PERCENT, SIDES, Cycle, Leg, two_legs
 from gaitsim.analysis.gait.muscles import sided_muscles
 from gaitsim.analysis.gait.norms import Norm
@@ -73,7 +73,7 @@ def gait_overlays(replays: Sequence[Replay]) -> list[Drawing]:
     return [drawing for overlay in _OVERLAYS for drawing in _drawn(overlay, walkers, others)]
 
 
-def _matched(found: Sequence[Matched], unit: str = "") -> list[Curve]:
+def _matched(found: Sequence[ComparedQuantity], unit: str = "") -> list[Curve]:
     return [Curve(one.name, unit or one.norm.unit, one.cycles, one.norm) for one in found]
 
 

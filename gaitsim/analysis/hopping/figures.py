@@ -100,7 +100,7 @@ def _watches_hops(part: Part) -> bool:
 
 
 @dataclass(frozen=True)
-class Dropped:
+class ApexPairs:
     """Pairs of consecutive apex heights in m above the reference; nan where there was no second apex."""
 
     before: Floats
@@ -114,7 +114,7 @@ class Dropped:
         return [fixed_between(x, above, int(i)) for i in np.flatnonzero(above[:-1] * above[1:] < 0)]
 
 
-def dropped(replay: Replay, count: int = _STARTS) -> Dropped | None:
+def dropped(replay: Replay, count: int = _STARTS) -> ApexPairs | None:
     """The return map from many starts: the model is dropped in the same posture from different heights.
 
     Returns:
@@ -139,7 +139,7 @@ def dropped(replay: Replay, count: int = _STARTS) -> Dropped | None:
         seen = hops_of(Replay(replay.label, replay.path, model, outcome)) if outcome.trajectory else None
         if seen is not None and len(seen.apexes) > 1:
             after[i] = seen.heights[seen.apexes[1]]
-    return Dropped(starts, after)
+    return ApexPairs(starts, after)
 
 
 def _with_free_start(model: Model, coordinate: str) -> Model:
@@ -210,7 +210,7 @@ def _return_map(replay: Replay, hops: Hops) -> list[Drawing]:
     return [Drawing("return_map", "Return map of apex heights", " ".join(words), figure)]
 
 
-def _of_starts(starts: Dropped) -> str:
+def _of_starts(starts: ApexPairs) -> str:
     lost = starts.before[np.isnan(starts.after)]
     said = f"Dots: the model in its initial posture, dropped at rest from {len(starts.before)} heights."
     if not lost.size:

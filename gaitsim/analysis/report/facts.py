@@ -14,7 +14,7 @@ from gaitsim.analysis.drawings.style import labelled, shown_unit
 from gaitsim.analysis.drawings.table import Table, shown
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.searches.convergence import tuned_in
-from gaitsim.analysis.searches.draws import Drawn, draws_of, summaries
+from gaitsim.analysis.searches.draws import DrawResults, draws_of, summaries
 from gaitsim.analysis.searches.sweep import study_of
 from gaitsim.components.bibliography import read_bibliography
 from gaitsim.components.find import library_folders
@@ -100,7 +100,7 @@ def study_table(replay: Replay) -> Table | None:
     return Table(columns, rows, frozenset(range(len(columns))) - {0, first})
 
 
-def _draws_table(drawn: Drawn, units: Mapping[str, str]) -> Table:
+def _draws_table(drawn: DrawResults, units: Mapping[str, str]) -> Table:
     """Every metric over all draws: mean, minimum, maximum."""
     rows = tuple(
         (each.name, shown(each.mean), shown(each.least), shown(each.greatest), shown_unit(units[each.name]))

@@ -28,7 +28,7 @@ _LABEL_SPACE = 1.25  # margin above the scores, as a share of their range
 
 
 @dataclass(frozen=True)
-class Tuned:
+class TunedParameter:
     """One row of parameters.csv in its unit; nan for unknown values."""
 
     address: str
@@ -77,7 +77,7 @@ def scores_of(evaluations: list[Evaluation]) -> Scores:
     return Scores(tuple(generations), scores, sum(e.failed for e in evaluations))
 
 
-def tuned_in(folder: Path, manifest: Mapping[str, Any]) -> list[Tuned]:
+def tuned_in(folder: Path, manifest: Mapping[str, Any]) -> list[TunedParameter]:
     """Read the tuned numbers of a result.
 
     Args:
@@ -100,7 +100,9 @@ def tuned_in(folder: Path, manifest: Mapping[str, Any]) -> list[Tuned]:
                 numbers = {name: float(row[name]) if row[name] else math.nan for name in names}
                 # The first format has SI numbers beside the unit of the declaration.
                 of = parse_unit(row["unit"]).of if format_of(manifest) == 1 else float
-                found.append(Tuned(row["address"], row["unit"], **{name: of(n) for name, n in numbers.items()}))
+                found.append(
+                    TunedParameter(row["address"], row["unit"], **{name: of(n) for name, n in numbers.items()})
+                )
             except (KeyError, TypeError, ValueError):  # UnknownUnit is a ValueError
                 continue
     return found
@@ -184,7 +186,7 @@ def _by_evaluation(evaluations: list[Evaluation]) -> Drawing:
     return Drawing("evaluations", "Every evaluation", caption, figure)
 
 
-def _within_bounds(tuned: list[Tuned]) -> Drawing:
+def _within_bounds(tuned: list[TunedParameter]) -> Drawing:
     figure, (axes,) = panels(1, 1, height=_ROW * len(tuned) + 0.6)
     for row, each in enumerate(tuned):
         _bar(axes, row, each, named=row == 0)
@@ -204,7 +206,7 @@ def _within_bounds(tuned: list[Tuned]) -> Drawing:
     return Drawing("tuned_parameters", "Tuned parameters within their bounds", caption, figure)
 
 
-def _bar(axes: Axes, row: int, each: Tuned, named: bool) -> None:
+def _bar(axes: Axes, row: int, each: TunedParameter, named: bool) -> None:
     """The range of one number with its start, best value and mean."""
     axes.barh(row, 1, height=0.22, color=GREY, alpha=0.18)
     if math.isfinite(each.mean):

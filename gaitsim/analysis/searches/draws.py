@@ -40,7 +40,7 @@ class Summary:
 
 
 @dataclass(frozen=True)
-class Drawn:
+class DrawResults:
     """The draws of a result: size and seed, how each ended, and its metrics (nan for none)."""
 
     within: float
@@ -74,7 +74,7 @@ def summaries(rows: Sequence[Mapping[str, float]]) -> list[Summary]:
     return found
 
 
-def drawn_in(folder: Path, manifest: Mapping[str, Any]) -> Drawn | None:
+def drawn_in(folder: Path, manifest: Mapping[str, Any]) -> DrawResults | None:
     """The draws of a result; None for other results."""
     asked = manifest.get("draws")
     if not asked:
@@ -82,10 +82,10 @@ def drawn_in(folder: Path, manifest: Mapping[str, Any]) -> Drawn | None:
     rows = read_rows(folder)
     metrics = [{n: math.nan if v is None else float(v) for n, v in row["metrics"].items()} for row in rows]
     statuses = tuple(str(row["status"]) for row in rows)
-    return Drawn(float(asked["within"]), int(asked["seed"]), statuses, tuple(metrics))
+    return DrawResults(float(asked["within"]), int(asked["seed"]), statuses, tuple(metrics))
 
 
-def draws_of(replay: Replay) -> Drawn | None:
+def draws_of(replay: Replay) -> DrawResults | None:
     """The draws that a replay belongs to; None for other runs."""
     return None if replay.folder is None else drawn_in(replay.folder, replay.manifest)
 
@@ -113,7 +113,7 @@ def draws_figures(replay: Replay) -> list[Drawing]:
     return [Drawing("draws", "Every tuned value a little different", caption, figure)]
 
 
-def _strip(axes: Axes, drawn: Drawn, values: Floats) -> None:
+def _strip(axes: Axes, drawn: DrawResults, values: Floats) -> None:
     """The values from left to right by the number of the draw."""
     from matplotlib.ticker import MaxNLocator
 

@@ -26,7 +26,7 @@ _SIDE = 4.6  # inches: a polar figure
 
 
 @dataclass(frozen=True)
-class Found:
+class LimitOver:
     """A limit at one value of the other number.
 
     Attributes:
@@ -57,7 +57,7 @@ def limit_figures(replay: Replay) -> list[Drawing]:
 
 def _found(
     replay: Replay, asked: Mapping[str, Any], address: str, first: float, across: str, values: Sequence[str]
-) -> list[Found]:
+) -> list[LimitOver]:
     """The limit at each value of the other number."""
     assert replay.folder is not None
     until, step = until_of(asked["until"], replay.model), replay.model.simulate.step
@@ -71,11 +71,11 @@ def _found(
         outcomes = [outcome_of(runs[i], step) for i in order]
         held = [until.holds(outcome, outcomes[0]) for outcome in outcomes]
         count = held.index(False) if False in held else len(held)
-        found.append(Found(value, float(at[0][order[count - 1]]) if count else math.nan, count == len(held)))
+        found.append(LimitOver(value, float(at[0][order[count - 1]]) if count else math.nan, count == len(held)))
     return found
 
 
-def _figure(address: str, unit: str, across: str, found: Sequence[Found], at: tuple[Any, str] | None) -> Drawing:
+def _figure(address: str, unit: str, across: str, found: Sequence[LimitOver], at: tuple[Any, str] | None) -> Drawing:
     sizes = np.array([one.last for one in found])
     free = np.array([one.open for one in found])
     angle = at is not None and parse_unit(at[1]).dimension == parse_unit("deg").dimension

@@ -30,9 +30,9 @@ def test_adopt_on_a_result(begun: Path, command: Any) -> None:
         ([], "is a result; to continue or to start from it: gaitsim optimize"),
         (["--resume", "--set", "simulate.duration=1s"], "goes on with its own spec and components; leave it out."),
         (["--resume", "--library", "."], "goes on with its own spec and components; leave it out."),
-        (["--resume", "--seed", "7"], "--seed 7: this search was begun with 1; leave it out, or start a new search."),
-        (["--resume", "--population", "4"], "--population 4: this search was begun with 3;"),
-        (["--resume", "--mode", "normal"], "--mode normal: this search was begun in rapid mode; leave it out."),
+        (["--resume", "--seed", "7"], "--seed 7: this search was started with 1; leave it out, or start a new search."),
+        (["--resume", "--population", "4"], "--population 4: this search was started with 3;"),
+        (["--resume", "--mode", "normal"], "--mode normal: this search was started in rapid mode; leave it out."),
         (["--resume", "--generations", "1"], "has 2 generations already; ask for more."),
     ],
 )
@@ -66,7 +66,7 @@ def test_resume_with_an_edited_spec_or_component(begun: Path, command: Any, edit
     assert ended.code == 3
     named = "spec.yaml (or its --set)" if edit == "spec" else path
     old = f"continue the old one: gaitsim optimize {begun} --resume"
-    rule = f"what {begun} was begun with has changed since: {named}"
+    rule = f"what {begun} was started with has changed since: {named}"
     assert ended.err == f"spec.yaml: {rule}; {old}; or start a new search with --from {begun}.\n"
     assert content(begun) == before
     assert command("optimize", str(begun), "--resume", "--generations", "3", "--workers", "0").code == 0

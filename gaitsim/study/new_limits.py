@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from gaitsim.study.opening import Opening
 
 
-def begun_or_resumed(
+def new_or_resumed(
     opening: Opening,
     asked: Mapping[str, Any],
     resume: bool,

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from gaitsim.study.opened import Opened
 
 
-class Keeping:
+class RunSaver:
     """Saves runs in a result folder in `root`, or nowhere without `root`."""
 
     def __init__(
@@ -42,7 +42,7 @@ class Keeping:
     def add(self, settings: Mapping[str, str], outcome: Outcome, more: Mapping[str, Any] | None = None) -> None:
         """Save one run with further data, unless an earlier one could not be saved."""
         if self._root and not self.error:
-            with self.noting():
+            with self.errors_kept():
                 self._record = self._record or self._begun(self._root)
                 self._record.add(settings, outcome, *([more] if more else []))
 
@@ -69,11 +69,11 @@ class Keeping:
     def arrange(self, place: Callable[[Mapping[str, Any]], int]) -> None:
         """Sort the saved runs."""
         if self._record and not self.error:
-            with self.noting():
+            with self.errors_kept():
                 self._record.arrange(place)
 
     @contextmanager
-    def noting(self) -> Iterator[None]:
+    def errors_kept(self) -> Iterator[None]:
         """Catch errors of saving in the block. The first one is reported at the end."""
         try:
             yield
@@ -83,5 +83,5 @@ class Keeping:
     def close(self, status: str = "complete") -> None:
         """End the result; no more runs follow."""
         if self._record:
-            with self.noting():
+            with self.errors_kept():
                 self._record.close("interrupted" if self.error else status)
