@@ -8,6 +8,7 @@ list and skips what is in the cache by then.
 from __future__ import annotations
 
 import contextlib
+import gc
 import hashlib
 import json
 import os
@@ -131,4 +132,5 @@ def _compile(files: Sequence[tuple[Sequence[str], Sequence[Sequence[str]]]]) -> 
 
 
 if __name__ == "__main__":
+    gc.disable()  # nearly all that numba makes stays to the end
     _compile(json.load(sys.stdin))
