@@ -2,16 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 
 from gaitsim.compiler.kernel import STAGES, Kernel, kernel_of
 from gaitsim.compiler.mjcf import Assembly
 from gaitsim.compiler.program import Program
 from gaitsim.components.checks.check import GUARD
-from gaitsim.components.primitive import Primitive
 from gaitsim.model import Part
 
 
@@ -113,7 +110,7 @@ def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kerne
             program.inputs.span(i),
             program.states.span(i),
             program.outputs.span(i),
-            _has_open_loop(part.type),
+            part.type.findings.open_loop,
         )
         for i, (part, kernel) in enumerate(zip(parts, kernels, strict=True))
     )
@@ -162,22 +159,6 @@ def _read(part: Part) -> Sequence[str]:
     kind = part.type
     if "output" not in kind.functions:
         return ()
-    if kind.outputs and not _may_raise(kind):
+    if kind.outputs and not kind.findings.may_raise:
         return [name for name in kind.inputs if any(name in needed for needed in kind.dependencies.values())]
     return list(kind.inputs)
-
-
-# Read from the text. Words of a docstring count too; this errs on the safe side.
-_RAISES = re.compile(r"\braise\b|\bassert\b|\[")
-_OPEN_LOOP = re.compile(r"\bwhile\b|\bfor\b.*\bin\b(?! range\([\d, ]+\):)")
-
-
-@cache
-def _may_raise(kind: Primitive) -> bool:
-    return _RAISES.search(kind.code) is not None
-
-
-@cache
-def _has_open_loop(kind: Primitive) -> bool:
-    """Whether a loop ends at a condition or after a computed number of iterations."""
-    return _OPEN_LOOP.search(kind.code) is not None

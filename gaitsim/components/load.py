@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any
 
 from gaitsim.component import Component, Input, Link, Output, Parameter, Part
-from gaitsim.components.checks.audited import remember, sound_dependencies
+from gaitsim.components.checks.audited import remember, sound_findings
 from gaitsim.components.checks.check import check_names, declaration_marks, parse, parse_shared, place
-from gaitsim.components.checks.dependency import output_dependencies
+from gaitsim.components.checks.findings import findings_of
 from gaitsim.components.checks.shared import Shared, builtins_with, import_faults, whole
 from gaitsim.components.ieee import ieee_math
 from gaitsim.components.primitive import Primitive
@@ -48,20 +48,20 @@ def load_primitive(reference: str, path: Path, shown: str, text: str, shared: Se
     """
     text = as_lines(text)
     everything = whole(text, shared)
-    dependencies = sound_dependencies(everything)
-    if dependencies is None:
+    findings = sound_findings(everything)
+    if findings is None:
         tree = parse(text, shown)
         others = _sound_trees(text, tree, shown, shared)
         cls = component_class(execute(text, shown, ieee_math(), shared))
         if faults := _faults(text, tree, cls, shown, shared, others):
             raise InvalidComponent(faults)
-        dependencies = output_dependencies(tree, cls.declarations, others)
-        remember(everything, dependencies)
+        findings = findings_of(tree, cls.declarations, others)
+        remember(everything, findings)
     else:
         cls = component_class(execute(text, shown, ieee_math(), shared))
     functions = frozenset(name for name in FUNCTIONS if name in vars(cls))
     digest = digest_of(everything)
-    return Primitive(reference, path, shown, text, digest, cls, dependencies, functions, tuple(shared))
+    return Primitive(reference, path, shown, text, digest, cls, findings, functions, tuple(shared))
 
 
 def _sound_trees(text: str, tree: ast.Module, shown: str, shared: Sequence[Shared]) -> list[ast.Module]:

@@ -1,4 +1,4 @@
-"""A loaded component file: declarations, functions, and the inputs that its outputs depend on."""
+"""A loaded component file: declarations, functions, and what is known of them."""
 
 from __future__ import annotations
 
@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from gaitsim import component as c
+from gaitsim.components.checks.findings import Findings
 from gaitsim.components.checks.shared import Shared, whole
 from gaitsim.units import parse_unit, scaled
 
@@ -31,9 +32,14 @@ class Primitive:
     text: str
     digest: str
     cls: type[c.Component]
-    dependencies: Mapping[str, frozenset[str]]
+    findings: Findings
     functions: frozenset[str]
     shared: tuple[Shared, ...] = ()
+
+    @property
+    def dependencies(self) -> Mapping[str, frozenset[str]]:
+        """The inputs that each output needs."""
+        return self.findings.dependencies
 
     def declared(self, kind: type[D]) -> dict[str, D]:
         """The declarations of one class, in the order of the file."""

@@ -41,11 +41,11 @@ def audits(monkeypatch: pytest.MonkeyPatch) -> list[str]:
     return done
 
 
-def test_a_sound_file_is_checked_once_and_keeps_its_dependencies(cache: Path, audits: list[str]) -> None:
+def test_a_sound_file_is_checked_once_and_keeps_what_was_found(cache: Path, audits: list[str]) -> None:
     first = loaded()
     again = loaded()
     assert audits == ["geyer2003.py"]
-    assert again.dependencies == first.dependencies
+    assert again.findings == first.findings
     assert first.dependencies["force"]
 
 
@@ -56,8 +56,8 @@ def test_a_damaged_memory_is_made_again(cache: Path, audits: list[str], damage: 
     memory.write_bytes(damage)
     again = loaded()
     assert len(audits) == 2
-    assert again.dependencies == first.dependencies
-    assert audited.sound_dependencies(first.code) == first.dependencies
+    assert again.findings == first.findings
+    assert audited.sound_findings(first.code) == first.findings
 
 
 def test_without_a_place_to_remember_a_file_is_checked_each_time(

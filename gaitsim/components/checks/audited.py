@@ -1,40 +1,41 @@
-"""A cache of checked component files: sound files, and the inputs that their outputs depend on, are not computed
-again.
-"""
+"""A cache of checked component files: sound files are neither checked nor parsed again."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import sys
-from collections.abc import Mapping
 from functools import cache
 from pathlib import Path
 
 import gaitsim
 from gaitsim.cache import keep, kept
+from gaitsim.components.checks.findings import Findings
 
 _RULES = ("component.py", "units.py", "components/*.py", "components/checks/*.py", "text/expression.py")
 
 
-def sound_dependencies(text: str) -> dict[str, frozenset[str]] | None:
+def sound_findings(text: str) -> Findings | None:
     """Look up a text that was found free of faults.
 
     Args:
         text: The text of the component and of its shared files.
 
     Returns:
-        The inputs that each output needs; None if the text is not in the cache.
+        What was found in it; None if the text is not in the cache.
     """
     known = kept("audited", _key(text))
     if known is None:
         return None
-    return {str(output): frozenset(map(str, inputs)) for output, inputs in json.loads(known).items()}
+    found = json.loads(known)
+    needed = {str(output): frozenset(map(str, inputs)) for output, inputs in found["dependencies"].items()}
+    return Findings(needed, bool(found["may_raise"]), bool(found["open_loop"]))
 
 
-def remember(text: str, dependencies: Mapping[str, frozenset[str]]) -> None:
+def remember(text: str, findings: Findings) -> None:
     """Store that a text has no fault. If the cache cannot be written, the text is checked again next time."""
-    keep("audited", _key(text), json.dumps({name: sorted(inputs) for name, inputs in dependencies.items()}).encode())
+    needed = {output: sorted(inputs) for output, inputs in findings.dependencies.items()}
+    keep("audited", _key(text), json.dumps(vars(findings) | {"dependencies": needed}).encode())
 
 
 def _key(text: str) -> str:
