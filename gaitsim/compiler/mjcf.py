@@ -28,6 +28,12 @@ _INTEGRATORS = {
     "rk4": mujoco.mjtIntegrator.mjINT_RK4,
 }
 
+# MuJoCo's arrays of passive forces: springs, dampers, and what carries a body's weight.
+_PASSIVE = (
+    *("jnt_stiffness", "jnt_stiffnesspoly", "dof_damping", "dof_dampingpoly", "body_gravcomp"),
+    *("tendon_stiffness", "tendon_stiffnesspoly", "tendon_damping", "tendon_dampingpoly"),
+)
+
 AFTER_VELOCITIES = int(
     mujoco.mjtStage.mjSTAGE_VEL
 )  # the stage that mj_step1 has completed when mj_forwardSkip continues
@@ -179,12 +185,21 @@ def _integrator(model: Model, compiled: Any) -> Any:
 
 
 def _unused_stages(compiled: Any) -> int:
-    """The stage of a step that handles contacts, limits and other constraints, if the model has none of them."""
+    """The stages of a step that would compute nothing: contacts, limits and other constraints, their division among
+    bodies that do not touch, and springs and dampers.
+    """
     rubs = compiled.dof_frictionloss.any() or compiled.tendon_frictionloss.any()
     stops = compiled.jnt_limited.any() or compiled.tendon_limited.any()
     touches = (compiled.geom_contype[:, None] & compiled.geom_conaffinity).any() or compiled.npair
     used = compiled.neq or rubs or stops or touches
-    return 0 if used else int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
+    flags = 0 if used else int(mujoco.mjtDisableBit.mjDSBL_CONSTRAINT)
+    if not touches:
+        flags |= int(mujoco.mjtDisableBit.mjDSBL_CONTACT)
+    if compiled.ntree <= 1:
+        flags |= int(mujoco.mjtDisableBit.mjDSBL_ISLAND)
+    if not any(getattr(compiled, name).any() for name in _PASSIVE):
+        flags |= int(mujoco.mjtDisableBit.mjDSBL_SPRING) | int(mujoco.mjtDisableBit.mjDSBL_DAMPER)
+    return flags
 
 
 def _end(branch: Branch, name: str, values: Sequence[float], frames: Frames) -> Point:

@@ -129,20 +129,54 @@ def test_what_is_only_to_be_looked_at_is_exported_and_not_simulated() -> None:
     assert mujoco.MjModel.from_xml_string(simulator.xml).ngeom == 2
 
 
+OTHER = """\
+  other: {use: segment/rod, mass: 1 kg, length: 0.5 m}
+  side: {use: joint/hinge, parent: world, child: other.proximal}
+"""
+
+
 @pytest.mark.parametrize(
     ("more", "used"),
     [
-        ("", False),
-        ("  tip: {use: contact/mujoco, frame: lower.distal}\n", True),
-        ("  line: {use: constraint/vertical, line: world, point: lower.distal, moved_mass: 1 kg}\n", True),
-        ("  tip: {use: contact/geyer2010, frame: lower.distal}\n", False),
+        ("", set()),
+        ("  tip: {use: contact/mujoco, frame: lower.distal}\n", {"CONSTRAINT", "CONTACT"}),
+        ("  line: {use: constraint/vertical, line: world, point: lower.distal, moved_mass: 1 kg}\n", {"CONSTRAINT"}),
+        ("  tip: {use: contact/geyer2010, frame: lower.distal}\n", set()),
+        (OTHER, {"ISLAND"}),
+        (OTHER.replace("world,", "world, damping: 1 N m s/rad,"), {"ISLAND", "SPRING", "DAMPER"}),
     ],
-    ids=["bodies", "contact", "equality", "explicit contact"],
+    ids=["bodies", "contact", "equality", "explicit contact", "two trees", "damper"],
 )
-def test_the_stage_of_constraints_is_passed_only_where_there_is_none(more: str, used: bool) -> None:
-    made = Simulator(written(BODIES.replace("simulate:", f"{more}simulate:")))._loop.physics.model
-    off = made.opt.disableflags & mujoco.mjtDisableBit.mjDSBL_CONSTRAINT
-    assert bool(off) != used
+def test_a_stage_is_passed_over_only_where_it_computes_nothing(more: str, used: set[str]) -> None:
+    spec = written(BODIES.replace("simulate:", f"{more}simulate:"))
+    made = assemble(spec, spec.values(), dressed=False).model
+    stages = {"CONSTRAINT", "CONTACT", "ISLAND", "SPRING", "DAMPER"}
+    off = {name for name in stages if made.opt.disableflags & mujoco.mjtDisableBit.__members__[f"mjDSBL_{name}"]}
+    assert stages - off == used
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        *("hopping_geyer2003", "hopping_leg_mass", "hopping_raibert", "pendulum_pid"),
+        *("walking_geyer2010", "walking_geyer2010_mujoco_contact", "walking_song2015"),
+    ],
+)
+def test_what_is_passed_over_changes_no_bit(name: str) -> None:
+    ended = []
+    chosen = model(HOPPER.parent / f"{name}.yaml")
+    for flags in (None, int(mujoco.mjtDisableBit.mjDSBL_AUTORESET)):
+        made = assemble(chosen, chosen.values(), dressed=False).model
+        made.opt.disableflags = made.opt.disableflags if flags is None else flags
+        data = mujoco.MjData(made)
+        data.warning.number[:] = 1  # or the first warning of a model that falls is written to a file
+        data.qpos[:] += np.linspace(0.1, 0.3, made.nq)
+        data.qvel[:] = np.linspace(-1, 1, made.nv)
+        data.ctrl[:] = 0.01
+        mujoco.mj_step(made, data, 100)
+        ended.append([data.qpos.tobytes(), data.qvel.tobytes(), data.qacc.tobytes()])
+        assert np.isfinite(data.qacc).all()
+    assert ended[0] == ended[1]
 
 
 def test_nothing_reads_the_clock_in_a_step() -> None:
