@@ -9,7 +9,7 @@ from functools import cache
 
 from gaitsim.component import Input, Output, State
 from gaitsim.components.checks.check import class_functions, parse, parse_shared
-from gaitsim.components.checks.dependency import output_dependencies
+from gaitsim.components.checks.findings import findings_of
 from gaitsim.components.ieee import ieee_math
 from gaitsim.components.load import component_class, execute
 from gaitsim.components.primitive import Primitive
@@ -61,8 +61,8 @@ def driven(component: Primitive, names: frozenset[str]) -> Primitive:
         for name, one in cls.declarations.items()
     }
     others = [parse_shared(file.text, file.shown) for file in component.shared]
-    needs = output_dependencies(parse(text, component.shown), cls.declarations, others)
-    return replace(component, text=text, cls=cls, dependencies=needs)
+    findings = findings_of(parse(text, component.shown), cls.declarations, others)
+    return replace(component, text=text, cls=cls, findings=findings)
 
 
 def _rewritten(component: Primitive, names: frozenset[str]) -> str:
