@@ -36,7 +36,7 @@ _SECTIONS: Mapping[str, tuple[str, Mapping[str, str]]] = {
         "Parameters",
         {"meaning": "doc", "default": "default", "unit": "unit", "bounds": "bounds", "source": "source"},
     ),
-    "series": ("Recorded curves", {"meaning": "doc", "unit": "unit", "values": "size"}),
+    "series": ("Recorded curves and lists", {"meaning": "doc", "unit": "unit", "values": "size"}),
     "points": ("Points", {"meaning": "doc", "unit": "unit"}),
     "options": ("Options", {"meaning": "doc", "choices": "choices", "default": "default"}),
     "attachments": ("Attachments", {"meaning": "doc"}),

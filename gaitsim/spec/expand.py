@@ -182,8 +182,9 @@ class Expansion:
         inside = Scope(address, where.logical, found.document.mark.file, {}, found.reference, outer=where.scope)
         for name, declared in found.parameters.items():
             given = node.entries.get(name, found.defaults.get(name))
-            if self._is_signal(given, where):
-                self._signal(name, declared, given, inside, where)
+            written_in = where.scope if name in node.entries else inside
+            if is_connection(given) or written_in.passed(given):
+                self._signal(name, declared, given, written_in.passed(given), inside, where)
                 continue
             if given is None:
                 self.faults.add(_needs(name, declared), where.mark, address)
@@ -204,14 +205,11 @@ class Expansion:
         self.section(merged(found.parts, own), inside, where.side, where.measure)
         self._exposed(found, address)
 
-    def _is_signal(self, node: Node | None, where: Where) -> bool:
-        """Whether a signal sets a parameter: `{from: part.output}`, or the name of a parameter that a signal sets."""
-        return is_connection(node) or where.scope.passed(node) is not None
-
-    def _signal(self, name: str, declared: Parameter, given: Node | None, inside: Scope, where: Where) -> None:
+    def _signal(
+        self, name: str, declared: Parameter, given: Node | None, wire: Wire | None, inside: Scope, where: Where
+    ) -> None:
         """Keep the signal that sets a parameter of a composite, for the inner parts that it is passed on to."""
         port = f"{where.address}.{name}"
-        wire = where.scope.passed(given)
         if wire is None and isinstance(given, MappingNode):
             wire = self.ports.connection(given, port, f"{where.logical}.{name}", where)
         if wire is not None:
@@ -246,7 +244,8 @@ class Expansion:
 
     def _primitive(self, found: Primitive, node: MappingNode, where: Where) -> None:
         address = where.address
-        signals = [name for name in found.parameters if self._is_signal(node.entries.get(name), where)]
+        entries = {name: node.entries.get(name) for name in found.parameters}
+        signals = [name for name, one in entries.items() if is_connection(one) or where.scope.passed(one)]
         if signals:
             common = self._common(found.kind)
             obstacles = [(name, why) for name in signals if (why := obstacle(found, name, common))]

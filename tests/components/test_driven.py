@@ -28,13 +28,15 @@ simulate: {duration: 1 s, step: 1 ms}
 """
 PAIR = """\
 about: Two reflexes with one offset.
-parameters: {offset: {unit: "1", default: 0.5, doc: Offset of both., source: "definition: a test"}}
+parameters:
+  offset: {unit: "1", default: 0.5, doc: Offset of both., source: "definition: a test"}
+  other: {unit: "1", default: =offset, doc: Offset of the second., source: "definition: a test"}
 inputs: {signal: [first.signal, second.signal]}
 outputs: {sum: sum.stimulation}
 parts:
   sum: {use: controller/clipped_sum, lower: 0, upper: 1}
   first: {use: controller/length_reflex, gain: 0.8, offset: =offset, to: sum.stimulations}
-  second: {use: controller/length_reflex, gain: 0.1, offset: =offset, to: sum.stimulations}
+  second: {use: controller/length_reflex, gain: 0.1, offset: =other, to: sum.stimulations}
 """
 
 
@@ -114,3 +116,15 @@ def test_a_constant_signal_is_the_number_also_within_a_composite(mode: Mode, tmp
     assert number["mean"] > 0
     assert run_of(tmp_path, "0.3", mode) != number
     assert run_of(tmp_path, "{from: asked.value}", mode) == number
+
+
+def test_a_list_of_instants_that_ends_before_the_run_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "spec.yaml"
+    text = "gaitsim: 1\nparts:\n  asked: {use: controller/time_profile, times: [0 s, 5 s], values: [1 m/s, 2 m/s]}\n"
+    path.write_text(f"{text}simulate: {{duration: 8 s, step: 1 ms}}\n", encoding="utf-8")
+    whole, longer = (
+        resolve(read_spec(path, [("simulate.duration", time)]), Library(library_folders(path)), "spec").notices
+        for time in ("5 s", "8 s")
+    )
+    assert whole == ()
+    assert longer == ("warning: asked.times end at 5 s and the run lasts 8 s; the last value holds until then",)
