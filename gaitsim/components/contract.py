@@ -39,7 +39,7 @@ def kind_faults(component: ComponentFile, contract: str, file: str, named: str) 
                 faults.append(Fault(rule, _mark(component, section, "", file)))
             elif has not in (unit, "*") and unit != "*":
                 rule = f"{name} is in [{has}], and every component of {component.kind}/ has it in [{unit}] ({named})"
-                faults.append(Fault(f"{rule}; declare it so.", _mark(component, section, name, file)))
+                faults.append(Fault(f"{rule}; declare it in [{unit}].", _mark(component, section, name, file)))
     return faults
 
 

@@ -81,5 +81,5 @@ def steps_in(interval: float, step: float) -> int:
     """
     steps = round(interval / step)
     if steps < 1 or abs(steps * step - interval) > 1e-9:
-        raise Usage(f"one instant every {interval:g} s: the run has steps of {step:g} s; write a multiple of that.")
+        raise Usage(f"one instant every {interval:g} s: the time step is {step:g} s; write a multiple of it.")
     return steps

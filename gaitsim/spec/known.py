@@ -34,7 +34,8 @@ def _known(row: MappingNode, index: int, units: Mapping[str, str], faults: Fault
     width = entries.get("tolerance")
     tolerance = None if width is None else number(width, units[metric], faults, f"{address}.tolerance")
     if tolerance is not None and width is not None and tolerance < 0:
-        faults.add("a tolerance is not below 0; write how far off is near enough.", width.mark, f"{address}.tolerance")
+        rule = "a tolerance is not below 0; write the largest acceptable deviation."
+        faults.add(rule, width.mark, f"{address}.tolerance")
     if not source.strip():
         rule = 'names no source; write a key of a references.bib, or such as "definition: a closed form".'
         faults.add(rule, entries["source"].mark, f"{address}.source")

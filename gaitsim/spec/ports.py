@@ -127,7 +127,7 @@ class PortReader:
         for name in names:
             given = node.entries.get(name)
             if given is None:
-                rule = f"is fastened to nothing by its {name}; write {name}: part.frame, or {name}: world."
+                rule = f"has no {name}; write {name}: part.frame, or {name}: world."
                 self.faults.add(rule, where.mark, where.address)
                 continue
             text = self._text(given, f"{name} names a frame; write such as {name}: thigh.distal.", where)

@@ -87,13 +87,13 @@ def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:
         return WORLD
     if text.startswith("="):
         if text[1:] in where.scope.places:
-            rule = f"{text} is a place beside a frame, and this needs a frame; give the mask a frame for it."
+            rule = f"{text} is a place beside a frame, and this needs a frame; pass a frame instead."
             faults.add(rule, mark, where.address)
             return None
         found = where.scope.attachments.get(text[1:])
         if found is None:
             hint = did_you_mean(text[1:], where.scope.attachments)
-            faults.add(f"{text} is not an attachment of this mask. {hint}", mark, where.address)
+            faults.add(f"{text} is not an attachment of this composite. {hint}", mark, where.address)
         return found or None
     first, _, rest = text.partition(".")
     known: list[str] = []

@@ -104,7 +104,7 @@ def open_library(spec: Path | None, folders: Sequence[Path]) -> Library:
 
     for folder in folders:
         if not folder.is_dir():
-            raise Usage(f"--library {folder}: there is no such folder; name one that holds kinds.")
+            raise Usage(f"--library {folder}: there is no such folder; name one with a folder for each kind.")
     return Library(library_folders(spec, folders))
 
 

@@ -1,4 +1,4 @@
-"""Expressions such as `=0.245 * height`: they may name parameters of their own mask, and their units are checked."""
+"""Expressions such as `=0.245 * height`: they may use parameters of their own file, and their units are checked."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ _FUNCTIONS: dict[str, Callable[..., float]] = {
     "max": max,
 }
 _CONSTANTS = {"pi": math.pi}
-_RULE = "an expression holds numbers, parameters of its mask, + - * / ** and functions; write no more than these."
+_RULE = "an expression contains only numbers, parameters of its file, + - * / ** and functions; remove the rest."
 
 
 class BadExpression(ValueError):
@@ -90,7 +90,7 @@ def _parsed(text: str) -> ast.Expression:
         tree = ast.parse(text.strip(), mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError) as error:
         if re.search(r"\d\s+[A-Za-z%]", text):
-            rule = f"={text}: a number in an expression has no unit; make it a parameter of the mask, and name that."
+            rule = f"={text}: a number in an expression has no unit; declare it under parameters: and use its name."
             raise BadExpression(rule) from error
         said = getattr(error, "msg", None) or "it is nested too deeply"
         raise BadExpression(f"={text} cannot be read ({said}); write it like =0.5 * height.") from error
@@ -130,8 +130,8 @@ def _named(name: str, units: Mapping[str, Dimension]) -> Dimension:
         return units[name]
     if name in _CONSTANTS:
         return _PLAIN
-    hint = did_you_mean(name, units) if units else "It has none; write parameters: first."
-    raise BadExpression(f"{name} is not a parameter of this mask. {hint}")
+    hint = did_you_mean(name, units) if units else "Declare it under parameters: first."
+    raise BadExpression(f"there is no parameter {name} here. {hint}")
 
 
 def _operation(

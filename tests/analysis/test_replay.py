@@ -74,7 +74,7 @@ def test_instants_are_left_out_evenly() -> None:
     for interval in (0.0015, 0.0, -1.0):
         with pytest.raises(Usage) as error:
             run.every(interval)
-        rule = "the run has steps of 0.001 s; write a multiple of that."
+        rule = "the time step is 0.001 s; write a multiple of it."
         assert str(error.value) == f"one instant every {interval:g} s: {rule}"
 
 

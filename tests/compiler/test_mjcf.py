@@ -98,7 +98,7 @@ def test_what_mujoco_refuses_is_named_by_its_line_in_the_spec() -> None:
             "  bottom: {use: joint/hinge, parent: upper.distal, child: lower.proximal}\n",
             "",
             "spec.yaml:4:3: lower",
-            "no joint carries it; add one with child: lower.proximal.",
+            "no joint has this segment as its child; add one with child: lower.proximal.",
         ),
         (
             "parent: upper.distal, child: lower.proximal",
@@ -111,7 +111,7 @@ def test_what_mujoco_refuses_is_named_by_its_line_in_the_spec() -> None:
             "parent: world",
             "parent: lower.distal",
             "spec.yaml:5:3: top",
-            "these segments carry each other in a ring: upper, lower; fasten one to world.",
+            "joints connect these segments in a loop: upper, lower; connect one of them to world.",
         ),
     ],
     ids=["none", "two", "ring"],

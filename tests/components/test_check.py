@@ -196,7 +196,7 @@ def test_the_future_and_a_docstring_are_fine() -> None:
         ('Output("N", "F.", usual=(3, 1))', "other: usual (3, 1) is not a range; write the lower end first."),
         (
             'Output("N", "F.", possible=(0, "peak"))',
-            "other: possible: peak is not a parameter of this mask. Known here: gain.",
+            "other: possible: there is no parameter peak here. Known here: gain.",
         ),
         (
             'Output("N", "F.", usual=(0, "gain"))',

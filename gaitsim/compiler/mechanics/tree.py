@@ -37,7 +37,7 @@ def branches(model: Model, values: Sequence[float]) -> list[Branch]:
         child = _owner(joint.attachments["child"], segments)
         above = carried.setdefault(child, [])
         if child == WORLD:
-            faults.add("it would carry the ground; exchange parent and child.", joint.mark, joint.address)
+            faults.add("its child is the ground; exchange parent and child.", joint.mark, joint.address)
             children_of_ground.add(_owner(joint.attachments["parent"], segments))
         elif above and _ends(above[0], values) != _ends(joint, values):
             rule = f"{child} is carried by {above[0].address} and, at another place, by {joint.address}"
@@ -49,7 +49,7 @@ def branches(model: Model, values: Sequence[float]) -> list[Branch]:
     for address, segment in segments.items():
         if address not in carried and address not in children_of_ground:
             first = next(iter(segment.type.frames))
-            rule = f"no joint carries it; add one with child: {address}.{first}"
+            rule = f"no joint has this segment as its child; add one with child: {address}.{first}"
             faults.add(f"{rule}.", segment.mark, address)
     faults.raise_if_any()
     return _ordered(segments, carried)
@@ -67,7 +67,7 @@ def _ordered(segments: dict[str, Part], carried: dict[str, list[Part]]) -> list[
         if not ready:
             ring = ", ".join(address for address in segments if address not in placed)
             joint = next(joints[0] for child, joints in carried.items() if child not in placed)
-            rule = f"these segments carry each other in a ring: {ring}; fasten one to world."
+            rule = f"joints connect these segments in a loop: {ring}; connect one of them to world."
             raise InvalidSpec(Fault(rule, joint.mark, joint.address))
         ordered += ready
         placed |= {branch.segment.address for branch in ready}
@@ -81,7 +81,7 @@ def check_axes(branch: Branch, body: Any) -> None:
         InvalidSpec: A joint adds no new direction.
     """
     parts = {joint.address: joint for joint in branch.joints}
-    for kind, does in ((mujoco.mjtJoint.mjJNT_HINGE, "turn"), (mujoco.mjtJoint.mjJNT_SLIDE, "move")):
+    for kind, does in ((mujoco.mjtJoint.mjJNT_HINGE, "turn about"), (mujoco.mjtJoint.mjJNT_SLIDE, "move along")):
         axes: list[Any] = []
         names: list[str] = []
         for made in (joint for joint in body.joints if joint.type == kind):
@@ -93,7 +93,7 @@ def check_axes(branch: Branch, body: Any) -> None:
             if len(axes) > 3 or np.linalg.svd(np.array(axes), compute_uv=False)[-1] < _FLAT:
                 part = parts.get(made.name) or parts[made.name.rpartition(".")[0]]
                 before = " and ".join(names[:-1])
-                rule = f"its axis adds no way to {does} {branch.segment.address} to {before}"
+                rule = f"{branch.segment.address} can already {does} this axis by {before}"
                 move = "choose an axis out of their plane" if len(axes) == 3 else "choose another axis, or remove it"
                 raise InvalidSpec(Fault(f"{rule}; {move}.", part.mark, part.address))
 

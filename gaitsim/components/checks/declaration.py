@@ -134,10 +134,10 @@ def like_faults(name: str, one: Metric | Input | Output, known: Mapping[str, Dec
     kind, like = type(one).__name__, known.get(one.like)
     if not isinstance(like, Series | Parameter if kind == "Output" else Series):
         also = " or a parameter" if kind == "Output" else ""
-        yield f"{name}: like is {one.like!r}, and that is not a series{also} of this file; write its name."
+        yield f"{name}: like is {one.like!r}, which is not a series{also} of this file; write the name of one."
     if one.unit != "*":
-        rule = f'has the unit of that; write {kind}("*", ...)'
-        yield f"{name}: {'a' if kind == 'Metric' else 'an'} {kind.lower()} like {one.like} {rule}."
+        rule = f'has the unit of what it names; write {kind}("*", ...)'
+        yield f"{name}: {'a' if kind == 'Metric' else 'an'} {kind.lower()} with like={one.like!r} {rule}."
 
 
 def unknown_fields(tree: ast.Module) -> Iterator[tuple[str, ast.keyword]]:

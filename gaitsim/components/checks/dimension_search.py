@@ -318,7 +318,7 @@ class Search:
             self.faults.add(f"{name} is not set on every path that leads here.", mark)
         elif not raised:
             said = f"{type(error).__name__}: {error}"
-            self.faults.add(f"the audit cannot run this ({said}).", mark)
+            self.faults.add(f"the check of units cannot run this ({said}).", mark)
 
 
 def _shape(value: Any) -> Any:
