@@ -13,7 +13,7 @@ import mujoco
 from gaitsim.compiler.chains import own_stages
 from gaitsim.compiler.mechanics.making import Made
 from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Relief, Touching, world_frames
-from gaitsim.compiler.mechanics.space import check_friction, check_grounds, check_sides
+from gaitsim.compiler.mechanics.space import check_friction, check_grounds, check_inertias, check_sides
 from gaitsim.compiler.mechanics.ties import Tie
 from gaitsim.compiler.mechanics.tree import Branch, branches, check_axes
 from gaitsim.compiler.mechanics.verbs import Mechanics, beside_frames, numbers_of
@@ -132,6 +132,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
             build(part)
     for make in made.later:
         make()
+    check_inertias(model, spec, made)
     check_friction(model, spec, made)
     check_grounds(model, made)
     compiled = _compiled(spec, {str(part.mark): part for part in model.parts})

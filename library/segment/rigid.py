@@ -28,7 +28,7 @@ class Rigid(Component):
         end = (x * p.length, 0, z * p.length)
         center = (x * p.center_of_mass, 0, z * p.center_of_mass)
         # About all three axes: only the transverse one matters in a plane.
-        mj.body(mass=p.mass, center_of_mass=center, inertia=(p.inertia, p.inertia, p.inertia))
+        mj.body(mass=p.mass, center_of_mass=center, inertia=(p.inertia, p.inertia, p.inertia), planar=True)
         mj.frame("proximal", (0, 0, 0))
         mj.frame("distal", end)
         mj.frame("center", center)

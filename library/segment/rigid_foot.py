@@ -37,7 +37,7 @@ class RigidFoot(Component):
         ball = (p.length - p.ankle, 0, -p.ankle_height)
         center = (p.center_of_mass - p.ankle, 0, p.center_height - p.ankle_height)
         # About all three axes: only the transverse one matters in a plane.
-        mj.body(mass=p.mass, center_of_mass=center, inertia=(p.inertia, p.inertia, p.inertia))
+        mj.body(mass=p.mass, center_of_mass=center, inertia=(p.inertia, p.inertia, p.inertia), planar=True)
         mj.frame("proximal", (0, 0, 0))
         mj.frame("distal", ball)
         mj.frame("ball", ball)

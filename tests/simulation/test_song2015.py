@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from gaitsim.simulation.run import Simulator
 from gaitsim.study.opening import Opening
 from gaitsim.text.document import MappingNode, parse, plain
 
-from .models import ROOT
+from .models import ROOT, model
 
 SPACE = ROOT / "specs" / "walking_song2015.yaml"
 PLANAR = ROOT / "specs" / "walking_song2015_planar.yaml"
@@ -74,3 +75,28 @@ def test_it_walks_in_space_at_half_its_step() -> None:
     found = walk("0.5 ms", SPACE)
     assert found["fall_time.fell"] == 0
     assert found["speed"] == pytest.approx(1.3, abs=0.03)
+
+
+def test_two_mirrored_starts_are_two_mirrored_walks() -> None:
+    walks = []
+    for side, sign in (("r", 1), ("l", -1)):
+        other = {"r": "l", "l": "r"}[side]
+        settings = {
+            "simulate.duration": "0.5 s",
+            "initial.root.left_velocity": f"{0.1 * sign} m/s",
+            "initial.root.roll": f"{2 * sign} deg",
+            f"initial.leg_{side}.phase.phase": "1",
+            f"initial.leg_{other}.phase.phase": "0",
+        }
+        for joint, (near, far) in {"hip": (194, 157), "knee": (178, 170), "ankle": (88, 95)}.items():
+            settings |= {f"initial.leg_{side}.{joint}.angle": f"{near} deg"}
+            settings |= {f"initial.leg_{other}.{joint}.angle": f"{far} deg"}
+        for leg, angle in ((side, 1), (other, -3)):
+            settings[f"initial.leg_{leg}.hip_abduction.angle"] = f"{angle} deg"
+        walks.append(Simulator(model(SPACE, settings.items())).run(recorded=True).trajectory)
+    right, left = walks
+    assert np.ptp(right["root.y"]) > 0.01 and right["leg_l.lateral_ball.force"].max() > 100
+    for signal, sign in (("root.x", 1), ("root.z", 1), ("root.y", -1), ("root.roll", -1), ("root.yaw", -1)):
+        assert left[signal] == pytest.approx(sign * right[signal], abs=1e-7)
+    for signal in ("hip_abduction.angle", "hip_abductor.activation", "ground.medial_load", "knee.angle"):
+        assert left[f"leg_l.{signal}"] == pytest.approx(right[f"leg_r.{signal}"], abs=1e-6)

@@ -9,14 +9,17 @@ from gaitsim.compiler.mechanics.places import Point, Vector
 class Bodies(Making):
     """Verbs for the part's own body."""
 
-    def body(self, mass: float, center_of_mass: Vector, inertia: Vector) -> None:
+    def body(self, mass: float, center_of_mass: Vector, inertia: Vector, planar: bool = False) -> None:
         """Set the mass properties of the body.
 
         Args:
             mass: In kg.
             center_of_mass: In m.
             inertia: Principal moments of inertia about the center of mass, in kg m^2.
+            planar: Whether only the second of them is known, so that the body may turn in the sagittal plane only.
         """
+        if planar:
+            self.made.planar.append(self.index)
         self.own_body.mass = float(mass)
         self.own_body.ipos = self._mirrored(center_of_mass)
         self.own_body.inertia = [float(i) for i in inertia]

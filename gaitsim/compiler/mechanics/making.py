@@ -23,6 +23,7 @@ class Made:
     drawings: list[tuple[int, DrawnLine | DrawnForce]] = field(default_factory=list)
     touching: list[Touching] = field(default_factory=list)
     carried: dict[int, str] = field(default_factory=dict)  # parts that touch the ground: the body they are on
+    planar: list[int] = field(default_factory=list)  # segments whose inertia is known about the transverse axis only
     across: bool = False  # whether there is ground that rises to a side
     reliefs: dict[str, Relief] = field(default_factory=dict)  # uneven ground by the site of its surface
     later: list[Callable[[], None]] = field(default_factory=list)  # what is made once all parts were built

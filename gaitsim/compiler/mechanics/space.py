@@ -33,6 +33,23 @@ def check_friction(model: Model, spec: Any, made: Made) -> None:
     faults.raise_if_any()
 
 
+def check_inertias(model: Model, spec: Any, made: Made) -> None:
+    """Check that segments with one inertia, about the transverse axis, turn about that axis only.
+
+    Raises:
+        InvalidSpec: A joint turns one about another axis.
+    """
+    faults = Faults()
+    for part in (model.parts[index] for index in made.planar):
+        joint = _out_of_plane(spec.body(part.address), slides=False)
+        if joint:
+            rule = (
+                f"{part.type.reference} has one inertia, about its transverse axis, and {joint} turns it about others"
+            )
+            faults.add(f"{rule}; choose segment/spatial.", part.mark, part.address)
+    faults.raise_if_any()
+
+
 def check_grounds(model: Model, made: Made) -> None:
     """Check that there is one ground, and that the spheres of MuJoCo are on one that rises straight ahead, because
     their forces are reported along it.
@@ -80,13 +97,18 @@ def check_sides(model: Model, values: Sequence[float]) -> None:
     faults.raise_if_any()
 
 
-def _out_of_plane(body: Any) -> str:
-    """The first joint, from a body down to the ground, that moves it out of the sagittal plane; empty if none does."""
+def _out_of_plane(body: Any, slides: bool = True) -> str:
+    """The first joint, from a body down to the ground, that moves it out of the sagittal plane; empty if none does.
+
+    Args:
+        body: The body.
+        slides: Whether joints count that move the body without turning it.
+    """
     while body is not None:
         for joint in body.joints:
             x, y, z = (abs(float(v)) for v in joint.axis)
-            slides = joint.type == mujoco.mjtJoint.mjJNT_SLIDE
-            if y > _STRAIGHT if slides else max(x, z) > _STRAIGHT * y:
+            slide = joint.type == mujoco.mjtJoint.mjJNT_SLIDE
+            if (slides and y > _STRAIGHT) if slide else max(x, z) > _STRAIGHT * y:
                 return str(joint.name)
         body = body.parent
     return ""
