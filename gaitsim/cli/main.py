@@ -23,6 +23,7 @@ def main(arguments: list[str] | None = None) -> None:
     gc.set_threshold(_GARBAGE)
     atexit.register(gc.freeze)
     os.environ.setdefault("PYDANTIC_DISABLE_PLUGINS", "1")  # or it looks for some in all installed packages
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # more wait busily for large matrices, which there are not
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a file name can contain any bytes
