@@ -16,7 +16,7 @@ SLOWER = {
     "calf_hyperreflexia": 1.2,
     "on_heels": 0.71,
     "spastic_quadriceps": 1.08,
-    "stiff_knee": 1.1,
+    "stiff_knee": 1.19,
 }
 
 
