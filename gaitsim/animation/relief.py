@@ -11,7 +11,7 @@ from gaitsim.compiler.mechanics.ground import GROUND
 from gaitsim.compiler.mechanics.places import Relief
 
 _BEHIND = 3.0  # m of ground behind the world's origin
-_FASTEST = 2.0  # m/s, of what the ground is long enough for
+_FASTEST = 4.0  # m/s, of what the ground is long enough for
 _LONGEST = 1500  # points along the path
 _APART = 0.05  # m between points, if the path is not too long
 _THICK = 0.01  # m of ground below the lowest point
