@@ -74,13 +74,13 @@ def tell_once(message: str) -> None:
     Args:
         message: What the cache cannot do.
     """
-    if not _told():
-        _told().append(message)
+    if not _warnings():
+        _warnings().append(message)
         logging.getLogger("gaitsim").warning("gaitsim: %s", message)
 
 
 @cache
-def _told() -> list[str]:
+def _warnings() -> list[str]:
     """The warnings that this process has logged."""
     return []
 

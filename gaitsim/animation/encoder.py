@@ -89,8 +89,10 @@ class Encoder:
         assert self._said is not None
         self._said.seek(0)
         lines = self._said.read().decode(errors="replace").strip().splitlines()
-        told = next((line for line in lines if "No space left" in line), lines[-1] if lines else "ffmpeg ended early")
-        return f"{self.path}: the video cannot be written: {told.rpartition(': ')[2].rstrip('.')}."
+        message = next(
+            (line for line in lines if "No space left" in line), lines[-1] if lines else "ffmpeg ended early"
+        )
+        return f"{self.path}: the video cannot be written: {message.rpartition(': ')[2].rstrip('.')}."
 
     def _input(self) -> list[str]:
         size = f"{self.size[0]}x{self.size[1]}"

@@ -127,6 +127,6 @@ class Show:
     def words(self) -> list[tuple[Any, Any, str, str]]:
         """The texts in the window."""
         paused = "paused" if self.player.paused else ""
-        told = f"{self.player.time:.3f} s\n{self.player.speed:g} x real time\n{paused}"
+        values = f"{self.player.time:.3f} s\n{self.player.speed:g} x real time\n{paused}"
         top, bottom = mujoco.mjtGridPos.mjGRID_TOPLEFT, mujoco.mjtGridPos.mjGRID_BOTTOMLEFT
-        return [(None, top, "t\nspeed\n", told), (None, bottom, *_KEYS)]
+        return [(None, top, "t\nspeed\n", values), (None, bottom, *_KEYS)]

@@ -61,11 +61,11 @@ def check(
         "metrics": len(model.metrics),
     }
     if json:
-        told = {"notices": sound.notices, "warnings": [_line(doubt) for doubt in sound.doubts]}
+        messages = {"notices": sound.notices, "warnings": [_line(doubt) for doubt in sound.doubts]}
         drawn = {"plot": str(picture) if picture else None, "moment_arms": table(arms)} if plot else {}
         changes = {"convergence": [data(one, tolerance) for one in found]} if convergence else {}
         known = {"reproduces": [compared_data(row) for row in sound.known]}
-        console.give_json({"status": "valid", **counts, **told, **known, **drawn, **changes})
+        console.give_json({"status": "valid", **counts, **messages, **known, **drawn, **changes})
         return
     console.give(f"{spec}: valid ({', '.join(f'{n} {name}' for name, n in counts.items())})")
     if sound.known:

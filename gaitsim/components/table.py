@@ -147,24 +147,26 @@ def _heads(row: Row) -> list[tuple[str, str]]:
 def _check_cycle(over: Floats, marks: Sequence[Mark], name: str, faults: Faults) -> None:
     """Check that rows increase, lie within the cycle and cover it."""
 
-    def told(share: float) -> str:
+    def percent(share: float) -> str:
         return f"{100 * share:.6g} %"
 
     for before, now, mark, place in zip(over, over[1:], marks, marks[1:], strict=False):
         if now == before:
-            faults.add(f"{name} is {told(now)}, as in line {mark.line}; keep one of the two rows.", place)
+            faults.add(f"{name} is {percent(now)}, as in line {mark.line}; keep one of the two rows.", place)
         elif now < before:
-            faults.add(f"{name} is {told(now)} after {told(before)}; put the rows in order, one cycle only.", place)
+            faults.add(
+                f"{name} is {percent(now)} after {percent(before)}; put the rows in order, one cycle only.", place
+            )
         elif now - before > _HOLE + _ROUNDING:
-            rule = f"no row lies between {told(before)} and {told(now)} of the cycle"
-            faults.add(f"{rule}; add some, as a recorded curve has one each {told(_HOLE)} or closer.", place)
+            rule = f"no row lies between {percent(before)} and {percent(now)} of the cycle"
+            faults.add(f"{rule}; add some, as a recorded curve has one each {percent(_HOLE)} or closer.", place)
     for share, place in zip(over, marks, strict=True):
         if not -_ROUNDING <= share <= 1 + _ROUNDING:
-            faults.add(f"{name} is {told(share)}, and a cycle goes from 0 to 100 %; check unit and rows.", place)
+            faults.add(f"{name} is {percent(share)}, and a cycle goes from 0 to 100 %; check unit and rows.", place)
     closing, widest = over[0] + 1 - over[-1], float(np.max(np.diff(over)))
     if not faults.found and closing > widest + _ROUNDING:
-        rule = f"the rows cover {told(over[0])} to {told(over[-1])} of the cycle, and a curve covers 0 to 100 %"
-        faults.add(f"{rule}; add the rows that are missing. Nothing is stretched or guessed.", marks[-1])
+        rule = f"the rows cover {percent(over[0])} to {percent(over[-1])} of the cycle, and a curve covers 0 to 100 %"
+        faults.add(f"{rule}; add the rows that are missing. gaitsim does not extrapolate.", marks[-1])
 
 
 def _numbers(row: Row, count: int, decimal_comma: bool, faults: Faults) -> Iterable[float]:

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Bracket:
-    """One range. It proposes shares of the range, from 0 to 1, and is told at which of them a run succeeds.
+    """One range. It proposes shares of the range, from 0 to 1, and takes the result of each run.
 
     Attributes:
         points: The number of values in the scan, both ends included.

@@ -64,13 +64,13 @@ def model_changes(first: Model, second: Model) -> list[Change]:
     uses = [{row["address"]: row["use"] for row in part_rows(model)} for model in (first, second)]
     alone = uses[0].keys() ^ uses[1].keys()
     found = [
-        *_told("part", uses[0], uses[1], [a for a in (*uses[0], *uses[1]) if a in alone and not _inside(a, alone)]),
-        *_told("component", uses[0], uses[1], [a for a in uses[0] if a not in alone]),
-        *_told("place", _places(first), _places(second), unless=alone),
-        *_told("connection", _senders(first), _senders(second), unless=alone),
-        *_told("curve", _curves(first), _curves(second), unless=alone),
+        *_changes_in("part", uses[0], uses[1], [a for a in (*uses[0], *uses[1]) if a in alone and not _inside(a, alone)]),
+        *_changes_in("component", uses[0], uses[1], [a for a in uses[0] if a not in alone]),
+        *_changes_in("place", _places(first), _places(second), unless=alone),
+        *_changes_in("connection", _senders(first), _senders(second), unless=alone),
+        *_changes_in("curve", _curves(first), _curves(second), unless=alone),
         *_number_changes(first, second, alone),
-        *_told("simulation", _simulation(first), _simulation(second)),
+        *_changes_in("simulation", _simulation(first), _simulation(second)),
     ]
     return ordered(found)
 
@@ -110,7 +110,7 @@ def making_changes(first: Mapping[str, Any], second: Mapping[str, Any]) -> list[
     both = _SEARCH in first and _SEARCH in second
     searches = [{key: str(value) for key, value in each[_SEARCH].items()} if both else {} for each in (first, second)]
     versions = [{"gaitsim": str(each["gaitsim"]), **each.get("versions", {})} for each in (first, second)]
-    return [*_told("search", *searches), *_told("version", *versions)]
+    return [*_changes_in("search", *searches), *_changes_in("version", *versions)]
 
 
 def ordered(changes: Iterable[Change]) -> list[Change]:
@@ -125,7 +125,7 @@ def counted(changes: Iterable[Change]) -> dict[str, int]:
     return {what: listed.count(what) for what in KINDS if what in listed}
 
 
-def _told(
+def _changes_in(
     what: str, first: Rows, second: Rows, only: Iterable[str] | None = None, unless: Iterable[str] = ()
 ) -> Iterator[Change]:
     """The differences of two tables, in their order.

@@ -77,18 +77,18 @@ class Record:
         except OSError as error:
             raise self._cannot(error) from error
 
-    def add(self, settings: Mapping[str, str], outcome: Outcome, told: Mapping[str, Any] | None = None) -> None:
+    def add(self, settings: Mapping[str, str], outcome: Outcome, more: Mapping[str, Any] | None = None) -> None:
         """Save one run, with further data.
 
         Args:
             settings: What the run sets, as text by address.
             outcome: Its outcome.
-            told: Further data of its row.
+            more: Further data of its row.
 
         Raises:
             CannotSave: The folder cannot be written. The runs before are unchanged.
         """
-        row = row_data(settings, outcome) | dict(told or {})
+        row = row_data(settings, outcome) | dict(more or {})
         if self._draws:
             row |= {"draw": len(self._rows) + 1, "values": self._drawn[len(self._rows)]}
         line = _line(row)
@@ -157,14 +157,14 @@ class Record:
             done = sum(row["status"] == "completed" for row in self._rows)
             within = f"within {100 * self._draws.within:g} % completed (seed {self._draws.seed})"
             tally = [f"{done} of {self._draws.count} draws {within}"]
-        return [*tally, *(_told(row, self._model.metrics) for row in self._rows[:_TOLD])]
+        return [*tally, *(_row_text(row, self._model.metrics) for row in self._rows[:_TOLD])]
 
 
 def _line(row: Mapping[str, Any]) -> str:
     return json.dumps(row, allow_nan=False) + "\n"
 
 
-def _told(row: Mapping[str, Any], units: Mapping[str, str]) -> str:
+def _row_text(row: Mapping[str, Any], units: Mapping[str, str]) -> str:
     said = row_words(row)
     found = {name: math.nan if v is None else v for name, v in row["metrics"].items()}
     numbers = ", ".join(f"{name} {with_unit(f'{v:.5g}', units.get(name, '1'))}" for name, v in found.items())

@@ -74,7 +74,7 @@ class _Finder:
         self.model, self.assembly, self.values = model, assembly, model.values()
         self.parts = {part.address: part for part in model.parts}
         self.turned = self._hinges(assembly.applies, "qfrc_applied")
-        self.told = self._hinges(assembly.reads, "qpos")
+        self.coordinates = self._hinges(assembly.reads, "qpos")
 
     def found(self) -> Iterator[Crossing]:
         """All crossings, in the order of the model."""
@@ -106,7 +106,7 @@ class _Finder:
     def _at(self, who: tuple[str, str], path: Part, moment: str, hinge: Part, port: str) -> Iterator[Crossing]:
         """The crossings of a path at the hinges of a part whose input it sends to."""
         for joint, tie in self.turned[hinge.address]:
-            coordinate = next((told.port for name, told in self.told.get(hinge.address, []) if name == joint), "")
+            coordinate = next((tie.port for name, tie in self.coordinates.get(hinge.address, []) if name == joint), "")
             neutral = float(self.assembly.model.joint(joint).qpos0[0])
             share = tie.sign * self._reaching(hinge, port, tie.port, {coordinate: neutral} if coordinate else {})
             angles = tuple(self._fed(f"{hinge.address}.{coordinate}", path))

@@ -72,8 +72,8 @@ def drawn_models(models: Sequence[Model], draws: Draws, spec: Path) -> tuple[lis
         move = "give a value bounds, such as gain: {value: 1, tune: [0, 5]}"
         raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(spec))))
     still = [free.address for free in model.free if free.start == 0]
-    told = [f"these are 0, which no share of it changes: {', '.join(still)}"] if still else []
-    return [model.started_at(values) for values in draws.values(problem_of(model))], told
+    notices = [f"these are 0, which no share of it changes: {', '.join(still)}"] if still else []
+    return [model.started_at(values) for values in draws.values(problem_of(model))], notices
 
 
 def _share(text: str) -> float:

@@ -95,8 +95,8 @@ def open_result(folder: Path, settings: Sequence[str], trusted: bool, candidate:
         place, recorded = evaluation.candidate, dict(vars(evaluation.verdict))
         starts = dict(zip((f.address for f in bundle.model().free), place.x, strict=True))
         notice = f"candidate {place.generation}:{place.index} of {folder}"
-        document, recorded, told = _first_episode(document, recorded)
-        notice += told
+        document, recorded, episode = _first_episode(document, recorded)
+        notice += episode
         if evaluation.verdict.status in ("killed", "timeout"):
             notice += f", which the search had to end ({evaluation.verdict.reason}); Ctrl-C ends it here"
             recorded = {}
@@ -117,10 +117,12 @@ def _first_episode(document: MappingNode, verdict: Mapping[str, Any]) -> tuple[M
     rows, found = episodes(document), verdict["episodes"]
     if not rows[0].settings:
         return document, dict(verdict), ""
-    told = f", episode 1 of {len(rows)}: {', '.join(f'{a} = {v}' for a, v in rows[0].settings.items())}"
+    episode = f", episode 1 of {len(rows)}: {', '.join(f'{a} = {v}' for a, v in rows[0].settings.items())}"
     if not found:
-        return rows[0].document, dict(verdict), told
+        return rows[0].document, dict(verdict), episode
     scores = ", ".join("failed" if one["score"] is None else f"{one['score']:.5g}" for one in found)
     how = optimize_section(document).combine
-    told += f" (the episodes' scores are {scores}; the candidate's is their {how}); for another one, --set its values"
-    return rows[0].document, dict(verdict) | found[0], told
+    episode += (
+        f" (the episodes' scores are {scores}; the candidate's is their {how}); for another one, --set its values"
+    )
+    return rows[0].document, dict(verdict) | found[0], episode

@@ -261,9 +261,9 @@ def _run_test(staged: Path, own: Path) -> None:
     ]
     ran = subprocess.run(words, cwd=staged.parent, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     if ran.returncode:
-        told = "\n".join(f"{ran.stdout}\n{ran.stderr}".strip().splitlines()[-_LINES:])
+        output = "\n".join(f"{ran.stdout}\n{ran.stderr}".strip().splitlines()[-_LINES:])
         rule = "this test does not pass beside the library, so nothing was promoted; correct it, or the component"
-        raise InvalidComponent(Fault(f"{rule}:\n{told}", Mark(shown(own))))
+        raise InvalidComponent(Fault(f"{rule}:\n{output}", Mark(shown(own))))
 
 
 def _users(request: Request, stage: Path, listener: Listener) -> tuple[Effect, ...]:

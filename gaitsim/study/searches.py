@@ -100,8 +100,8 @@ def started(request: Request, root: Path) -> Tuning:
     for one in (simulator, *(Simulator(episode.started_at(opened.starts), mode) for episode in each)):
         starts.look_at(one)
     bundle = opened.bundle([model, *each])
-    told = {"spec": str(request.opening.path), "search": search, "smoke": request.smoke, "notices": notices}
-    manifest = new_manifest("optimize", bundle, mode, opened.place, **told)
+    fields = {"spec": str(request.opening.path), "search": search, "smoke": request.smoke, "notices": notices}
+    manifest = new_manifest("optimize", bundle, mode, opened.place, **fields)
     more = {"evaluations.jsonl": "", **changes_file(opened.place)}
     folder = create_result(root, bundle, model, simulator.xml, manifest, more, _MOVE)
     bundle = replace(bundle, folder=folder)

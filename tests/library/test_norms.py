@@ -104,7 +104,7 @@ def _even(low: int, high: int, step: int = 2) -> str:
         (
             _even(0, 58),
             "bad.csv:31: the rows cover 0 % to 58 % of the cycle, and a curve covers 0 to 100 %; "
-            "add the rows that are missing. Nothing is stretched or guessed.",
+            "add the rows that are missing. gaitsim does not extrapolate.",
         ),
         (
             _even(0, 20) + _even(40, 100).partition("\n")[2],

@@ -33,9 +33,9 @@ def cost_figure(costs: Sequence[Cost], profile: Profile, name: str) -> Drawing:
     axes.set_xlabel("time a step (ns)")
     axes.legend(fontsize=FONT - 1, loc="lower right")
     rest = sum(cost.seconds for cost in costs[_BARS:])
-    told = f" The other {len(costs) - _BARS} take {1e9 * rest:,.0f} ns." if len(costs) > _BARS else ""
+    others = f" The other {len(costs) - _BARS} take {1e9 * rest:,.0f} ns." if len(costs) > _BARS else ""
     caption = (
-        f"What takes how long in one step of {name}, which takes {1e9 * profile.step:,.0f} ns as a whole.{told} "
+        f"What takes how long in one step of {name}, which takes {1e9 * profile.step:,.0f} ns as a whole.{others} "
         f"A stopwatch in the native code measured it; with it a step takes {profile.slower:.2f} times as long."
     )
     return Drawing(f"{name}.profile", f"Run time of {name}", caption, figure)
