@@ -99,7 +99,7 @@ def stage_of(model: Model, wide: bool = False) -> Stage:
     _paint_bodies(model, spec)
     muscles = _muscles(model, assembly)
     _paint_tendons(spec, {name for name, _ in muscles})
-    _furnish(spec, ground=bool(forces), wide=wide)
+    _add_surroundings(spec, ground=bool(forces), wide=wide)
     if assembly.relief is not None and forces:
         near, far = _ROUGH if not wide else (_ROUGH[0], -_ROUGH[0])
         add_relief(spec, assembly.relief, model.simulate.duration, near, far)
@@ -214,7 +214,7 @@ def _paint_tendons(spec: Any, muscles: set[str]) -> None:
         tendon.rgba = (0, 0, 0, 1 if tendon.name in muscles else 0)
 
 
-def _furnish(spec: Any, ground: bool, wide: bool) -> None:
+def _add_surroundings(spec: Any, ground: bool, wide: bool) -> None:
     """Add light, a plain background and, if something touches it, the ground as a tiled track."""
     # Near and far ends of what is seen, in m; MuJoCo counts them in sizes of the model, steps and all.
     spec.stat.extent, spec.visual.map.znear, spec.visual.map.zfar = 1.0, 0.05, 200.0

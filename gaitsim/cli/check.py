@@ -61,7 +61,7 @@ def check(
         "metrics": len(model.metrics),
     }
     if json:
-        messages = {"notices": sound.notices, "warnings": [_line(doubt) for doubt in sound.doubts]}
+        messages = {"notices": sound.notices, "warnings": [_line(one) for one in sound.warnings]}
         drawn = {"plot": str(picture) if picture else None, "moment_arms": table(arms)} if plot else {}
         changes = {"convergence": [data(one, tolerance) for one in found]} if convergence else {}
         known = {"reproduces": [compared_data(row) for row in sound.known]}

@@ -64,7 +64,7 @@ def waiting(what: str, quiet: bool = False) -> Iterator[None]:
     """
     over, began = Event(), time.monotonic()
 
-    def talk() -> None:
+    def report() -> None:
         while not over.wait(PLAIN_EVERY):
             text = f"{what}: {time.monotonic() - began:.0f} s so far"
             if sys.stderr.isatty():
@@ -72,13 +72,13 @@ def waiting(what: str, quiet: bool = False) -> Iterator[None]:
             elif not quiet:
                 say(text)
 
-    talker = Thread(target=talk, daemon=True)
-    talker.start()
+    thread = Thread(target=report, daemon=True)
+    thread.start()
     try:
         yield
     finally:
         over.set()
-        talker.join()
+        thread.join()
         if sys.stderr.isatty() and time.monotonic() - began >= PLAIN_EVERY:
             rewrite("")
 

@@ -15,7 +15,7 @@ from gaitsim.results.cohort import Cohort, Row, cohort_of
 from gaitsim.results.tuned import problem_of
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode, Simulator
-from gaitsim.simulation.starting import start_doubts
+from gaitsim.simulation.starting import start_findings
 from gaitsim.spec.resolve import resolve
 from gaitsim.spec.schema import optimize_section
 from gaitsim.text.document import MappingNode
@@ -65,8 +65,8 @@ class Rows:
         """
         model = resolve(row.document(self.document), self.library, self.name).started_at(self.starts)
         simulator = Simulator(model, self.mode)
-        if doubts := start_doubts(simulator).impossible:
-            raise InvalidSpec(doubts)
+        if findings := start_findings(simulator).impossible:
+            raise InvalidSpec(findings)
         return simulator
 
     def _retuned(self, simulator: Simulator, first: Outcome) -> RowVerdict:

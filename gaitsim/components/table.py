@@ -68,7 +68,7 @@ def load_table(path: Path, shown: str, text: str) -> Table:
     if len(rows) < 3:
         rule = "a table has a row of names with units, such as cycle [%],knee_flexion [deg], and two rows of numbers"
         raise InvalidSpec(Fault(f"{rule} or more.", Mark(shown)))
-    heads, faults = _heads(rows[0]), Faults()
+    heads, faults = _columns(rows[0]), Faults()
     numbers = [list(_numbers(row, len(heads), separator != ",", faults)) for row in rows[1:]]
     faults.raise_if_any()
     over = parse_unit(heads[0][1]).factor * np.array([row[0] for row in numbers])
@@ -113,7 +113,7 @@ def _split(text: str, shown: str) -> tuple[list[str], list[Row], str]:
     return about, rows, separator
 
 
-def _heads(row: Row) -> list[tuple[str, str]]:
+def _columns(row: Row) -> list[tuple[str, str]]:
     """Names and units of all columns.
 
     Raises:

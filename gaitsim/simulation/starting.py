@@ -14,14 +14,14 @@ from gaitsim.units import parse_unit
 
 
 @dataclass(frozen=True)
-class Doubts:
+class StartFindings:
     """Signals that are unusual at the start, and signals that are impossible."""
 
     unusual: tuple[Fault, ...] = ()
     impossible: tuple[Fault, ...] = ()
 
 
-def start_doubts(simulator: Simulator) -> Doubts:
+def start_findings(simulator: Simulator) -> StartFindings:
     """Compare the signals of the first instant with the declared ranges."""
     model, signals = simulator.model, simulator.first_instant()
     for connection in model.connections:
@@ -39,7 +39,7 @@ def start_doubts(simulator: Simulator) -> Doubts:
                     impossible.append(start.fault)
                 elif start.beyond(declared.usual):
                     unusual.append(start.fault)
-    return Doubts(tuple(unusual), tuple(impossible))
+    return StartFindings(tuple(unusual), tuple(impossible))
 
 
 def _ranged(part: Part) -> Iterator[tuple[str, Ranged]]:

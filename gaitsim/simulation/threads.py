@@ -76,7 +76,7 @@ def interruptible(call: Callable[[], Result]) -> Result:
     if not main or signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
         return call()
     # Waiting threads are kept for the next call; an abandoned one does not return.
-    calls = _idle.pop() if _idle else _hired()
+    calls = _idle.pop() if _idle else _new_thread()
     answer: Future[Result] = Future()
     calls.put((call, answer))
     found = answer.result()
@@ -87,7 +87,7 @@ def interruptible(call: Callable[[], Result]) -> Result:
 _idle: list[SimpleQueue[tuple[Callable[[], Any], Future[Any]]]] = []
 
 
-def _hired() -> SimpleQueue[tuple[Callable[[], Any], Future[Any]]]:
+def _new_thread() -> SimpleQueue[tuple[Callable[[], Any], Future[Any]]]:
     """A queue of calls that a new thread makes one after the other."""
     calls: SimpleQueue[tuple[Callable[[], Any], Future[Any]]] = SimpleQueue()
 

@@ -109,7 +109,7 @@ class Expansion:
             if not sided[name] and name not in overrides:
                 self._entry(node, where)
 
-    def lone_entry(self, name: str, node: MappingNode, mark: Mark, scope: Scope) -> None:
+    def single_entry(self, name: str, node: MappingNode, mark: Mark, scope: Scope) -> None:
         """Expand one entry whose name is unknown to other entries."""
         self._entry(node, Where(scope.below(name), _join(scope.logical, name), scope, mark))
 

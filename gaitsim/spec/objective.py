@@ -40,7 +40,7 @@ def read_objective(
     alone = Expansion(expansion.library, faults, expansion.use_for, expansion.table, broken=expansion.broken)
     above, _, name = address.rpartition(".")
     inner = Scope(above, above, scope.file, scope.names, children={n: n for n in scope.children})
-    alone.lone_entry(name, without(section, TERMS), mark, inner)
+    alone.single_entry(name, without(section, TERMS), mark, inner)
     if not alone.parts:
         return None
     part = alone.parts[0]

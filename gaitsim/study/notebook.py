@@ -264,7 +264,7 @@ def check(
         library: Folders of more components.
 
     Returns:
-        What was found in a valid spec: `models`, `doubts`, `arms`, `convergence`.
+        What was found in a valid spec: `models`, `warnings`, `arms`, `convergence`.
     """
     from gaitsim.study.soundness import checked
 

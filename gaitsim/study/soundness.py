@@ -35,7 +35,7 @@ class Soundness:
     Attributes:
         rows, models: Those of its study; one without a study.
         notices: Notices for the user.
-        doubts: Unusual findings.
+        warnings: Unusual findings.
         arms: The moment arm of each path about each hinge.
         known: Values that it should reproduce, with those of its record.
         convergence: For each model, the changes with a half and a quarter of the step.
@@ -44,13 +44,13 @@ class Soundness:
     rows: Sequence[Variant]
     models: Sequence[Model]
     notices: Sequence[str]
-    doubts: Sequence[Fault]
+    warnings: Sequence[Fault]
     arms: Sequence[MomentArm]
     known: Sequence[Compared]
     convergence: Sequence[StepConvergence]
 
     def __repr__(self) -> str:
-        return f"<Soundness of {self.models[0]}: {len(self.doubts)} doubts, {len(self.notices)} notices>"
+        return f"<Soundness of {self.models[0]}: {len(self.warnings)} warnings, {len(self.notices)} notices>"
 
 
 def checked(opening: Opening, convergence: bool, listener: Listener) -> Soundness:
@@ -78,12 +78,12 @@ def checked(opening: Opening, convergence: bool, listener: Listener) -> Soundnes
     for notice in notices:
         listener.say(notice)
     arms = moment_arms(models[0])
-    doubts = [*starts.unusual, *warnings(arms), *_unknown_sources(models[0], opened.library)]
-    for doubt in doubts:
-        listener.say(f"warning: {doubt}")
+    unusual = [*starts.unusual, *warnings(arms), *_unknown_sources(models[0], opened.library)]
+    for one in unusual:
+        listener.say(f"warning: {one}")
     with listener.waiting("simulating"):
         found = _convergence_of(models, listener) if convergence else []
-    return Soundness(rows, models, notices, doubts, arms, compared(models[0].reproduces, _recorded(opening)), found)
+    return Soundness(rows, models, notices, unusual, arms, compared(models[0].reproduces, _recorded(opening)), found)
 
 
 def _unknown_sources(model: Model, library: Library) -> Iterator[Fault]:

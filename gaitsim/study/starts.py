@@ -26,12 +26,12 @@ class Starts:
         Raises:
             InvalidSpec: A signal is outside its possible range.
         """
-        from gaitsim.simulation.starting import start_doubts
+        from gaitsim.simulation.starting import start_findings
 
-        doubts = start_doubts(simulator)
-        if doubts.impossible and self._refuses:
-            raise InvalidSpec(doubts.impossible)
-        self.unusual += [f for f in (*doubts.impossible, *doubts.unusual) if f not in self.unusual]
+        findings = start_findings(simulator)
+        if findings.impossible and self._refuses:
+            raise InvalidSpec(findings.impossible)
+        self.unusual += [f for f in (*findings.impossible, *findings.unusual) if f not in self.unusual]
 
     @property
     def warnings(self) -> list[str]:

@@ -40,7 +40,7 @@ def test_a_change_of_sign_is_a_warning(capsys: pytest.CaptureFixture[str]) -> No
     assert said.err.startswith("warning: ")
 
 
-def test_without_doubts_nothing_is_said(capsys: pytest.CaptureFixture[str]) -> None:
+def test_without_warnings_nothing_is_said(capsys: pytest.CaptureFixture[str]) -> None:
     assert check("--json") == 0
     said = capsys.readouterr()
     assert json.loads(said.out)["warnings"] == []

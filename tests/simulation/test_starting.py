@@ -8,7 +8,7 @@ import pytest
 
 from gaitsim.cli.main import main
 from gaitsim.simulation.run import Simulator
-from gaitsim.simulation.starting import Doubts, start_doubts
+from gaitsim.simulation.starting import StartFindings, start_findings
 from gaitsim.spec.study import variants
 from gaitsim.study.opening import Opening
 from simulation.models import ROOT, SPECS, model, written
@@ -16,8 +16,8 @@ from simulation.models import ROOT, SPECS, model, written
 MOVE = "change initial:, or the numbers of this part."
 
 
-def doubts(spec: str, *settings: tuple[str, str]) -> Doubts:
-    return start_doubts(Simulator(model(ROOT / "specs" / f"{spec}.yaml", settings)))
+def findings(spec: str, *settings: tuple[str, str]) -> StartFindings:
+    return start_findings(Simulator(model(ROOT / "specs" / f"{spec}.yaml", settings)))
 
 
 @pytest.mark.parametrize("spec", SPECS, ids=lambda path: path.stem)
@@ -25,7 +25,7 @@ def test_no_shipped_spec_starts_unusually(spec: Path) -> None:
     opened = Opening(spec).open()
     # In normal mode, which needs no native code of each spec; both modes agree (test_modes_agree.py).
     simulator = Simulator(opened.model(variants(opened.document, [])[0].document), "normal")
-    assert start_doubts(simulator) == Doubts()
+    assert start_findings(simulator) == StartFindings()
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_no_shipped_spec_starts_unusually(spec: Path) -> None:
     ],
 )
 def test_what_is_unusual_is_warned_of(spec: str, setting: str, value: str, address: str, said: str) -> None:
-    found = doubts(spec, (setting, value))
+    found = findings(spec, (setting, value))
     assert found.impossible == ()
     (fault,) = found.unusual
     assert (fault.address, fault.message) == (address, f"at the start this is {said}; {MOVE}")
@@ -96,7 +96,7 @@ def test_what_is_unusual_is_warned_of(spec: str, setting: str, value: str, addre
     ],
 )
 def test_what_is_beyond_reason_is_refused(spec: str, setting: str, value: str, expected: dict[str, str]) -> None:
-    found = doubts(spec, (setting, value))
+    found = findings(spec, (setting, value))
     told = {fault.address: fault.message for fault in found.impossible}
     assert told == {address: f"at the start this is {said}; {MOVE}" for address, said in expected.items()}
 
@@ -111,7 +111,7 @@ parts:
 initial: {pivot.angle: 30 deg}
 simulate: {duration: 0.1 s, step: 1 ms}
 """
-    found = start_doubts(Simulator(written(f"gaitsim: 1{text}")))
+    found = start_findings(Simulator(written(f"gaitsim: 1{text}")))
     assert [f"{fault.address}: {fault.message}" for fault in found.unusual] == [
         f"pivot.angle: at the start this is 30 deg, usual is 25.73 deg (upper + 0.1) at most; {MOVE}",
         f"relay.signal: at the start this is 30 deg, usual is 11.46 deg (highest) at most; {MOVE}",

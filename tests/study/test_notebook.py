@@ -104,10 +104,10 @@ def test_signals_are_looked_at_and_written(spec: Path) -> None:
     assert found.replays[0].trajectory["guide.position"][0] == 0.4
 
 
-def test_a_sound_spec_has_models_and_no_doubts(spec: Path) -> None:
+def test_a_sound_spec_has_models_and_no_warnings(spec: Path) -> None:
     found = gaitsim.check(spec)
     assert [free.address for free in found.models[0].free] == [HEIGHT]
-    assert list(found.doubts) == list(found.convergence) == []
+    assert list(found.warnings) == list(found.convergence) == []
 
 
 CALLS = [gaitsim.run, gaitsim.check, gaitsim.analyze, gaitsim.optimize]

@@ -120,7 +120,7 @@ def _unit(model: Model, signal: str) -> str:
 
 
 def matched_signals(replay: Replay, legs: Sequence[Leg]) -> list[ComparedQuantity]:
-    """The compared_signals signals of both legs."""
+    """The compared signals of both legs."""
     found = []
     for one in compared_signals(replay):
         cycles = {leg.side: leg.over_cycle(v) for leg in legs if (v := one.on(replay, leg.side)) is not None}

@@ -20,9 +20,9 @@ _FIRST = {"fabs", "copysign"}
 def namespace(search: Search) -> dict[str, Any]:
     """The global names of an audited file: its math, and the builtins that depend on values."""
 
-    def without_value(plain: Callable[..., Any], blind: Callable[..., Any]) -> Callable[..., Any]:
+    def without_value(plain: Callable[..., Any], either: Callable[..., Any]) -> Callable[..., Any]:
         def called(*values: Any) -> Any:
-            return (blind if any(isinstance(v, Number) for v in values) else plain)(*values)
+            return (either if any(isinstance(v, Number) for v in values) else plain)(*values)
 
         return called
 
@@ -47,10 +47,10 @@ def namespace(search: Search) -> dict[str, Any]:
         return [search.plain("range") for _ in range(*values)[:2]]
 
     def extreme(name: str) -> Callable[..., Any]:
-        def blind(*v: Any) -> Number:
+        def either(*v: Any) -> Number:
             return search.alike(f"takes the {name} of {{0}} and {{1}}", *v)
 
-        return without_value(getattr(builtins, name), blind)
+        return without_value(getattr(builtins, name), either)
 
     def find(name: str, *rest: Any) -> Any:
         return mathematics if name == "math" else builtins.__import__(name, *rest)
