@@ -83,9 +83,8 @@ class Prescribed(Component):
     def build(p, mj):
         gap = abs(p.motion[100] - p.motion[0])
         if gap > 0.05 * (max(p.motion) - min(p.motion)):
-            raise Refused(
-                f"motion ends {math.degrees(gap):.3g} deg from where it begins; a cycle begins anew where it ends"
-            )
+            rule = "a cycle must end at the value at which it starts"
+            raise Refused(f"motion ends {math.degrees(gap):.3g} deg from its start; {rule}")
         mj.agree(
             "period", p.period, "s", "joints that follow one recorded walk repeat together, so write the same value"
         )

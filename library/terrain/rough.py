@@ -86,6 +86,6 @@ class Rough(Component):
     def build(p, mj):
         steepest = 3 * p.amplitude / p.cell
         if steepest > STEEPEST:
-            rule = f"its bumps can rise by {steepest:.3g} m a meter, and contacts are right up to {STEEPEST:g}"
-            raise Refused(f"{rule}; cells of {3 * p.amplitude:.3g} m are long enough for this amplitude")
+            rule = f"its slope can reach {steepest:.3g}, and contacts are accurate up to a slope of {STEEPEST:g}"
+            raise Refused(f"{rule}; for this amplitude, make cell at least {3 * p.amplitude:.3g} m")
         mj.ground(relief=(surface, (p.amplitude, p.cell, p.first, math.floor(p.seed))))
