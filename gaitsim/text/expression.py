@@ -7,6 +7,7 @@ import math
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 from types import CodeType
 from typing import Any
 
@@ -26,6 +27,7 @@ _FUNCTIONS: dict[str, Callable[..., float]] = {
     "max": max,
 }
 _CONSTANTS = {"pi": math.pi}
+_Scope = Mapping[str, tuple[int, str]]  # the index of the number, and its unit, by name
 _RULE = "an expression contains only numbers, parameters of its file, + - * / ** and functions; remove the rest."
 
 
@@ -58,7 +60,7 @@ class Expression:
         return float(value)
 
 
-def parse_expression(text: str, unit: str, scope: Mapping[str, tuple[int, str]]) -> Expression:
+def parse_expression(text: str, unit: str, scope: _Scope) -> Expression:
     """Read and check an expression.
 
     Args:
@@ -69,20 +71,25 @@ def parse_expression(text: str, unit: str, scope: Mapping[str, tuple[int, str]])
     Raises:
         BadExpression: It cannot be read, names something else, or has another unit.
     """
-    tree = _parsed(text)
-    units = {name: parse_unit(u).dimension.without_angle for name, (_, u) in scope.items()}
-    found = _dimension(tree.body, units, text)
+    tree, words = _parsed(text)
+    found = _dimension(tree.body, scope, text)
     declared = parse_unit(unit).dimension
     if declared.without_angle != found and unit != "*" and not _open(found):
         raise BadExpression(f"={text} gives {found}; this needs {declared}, so multiply or divide by what is missing.")
-    used = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)} & set(scope)
-    names = tuple((name, scope[name][0]) for name in sorted(used))
-    return Expression(f"={text}", compile(tree, "<expression>", "eval"), names)
+    names = tuple((name, scope[name][0]) for name in words if name in scope)
+    return Expression(f"={text}", _code(text), names)
 
 
-def _parsed(text: str) -> ast.Expression:
-    """The syntax tree of an expression. Its integers become floats, because powers of integers can grow without
-    limit.
+@cache
+def _code(text: str) -> CodeType:
+    """The code of an expression that was found valid."""
+    return compile(_parsed(text)[0], "<expression>", "eval")
+
+
+@cache
+def _parsed(text: str) -> tuple[ast.Expression, tuple[str, ...]]:
+    """The syntax tree of an expression, and all names in it, sorted. Its integers become floats, because powers of
+    integers can grow without limit.
     """
     if not text.strip():
         raise BadExpression("there is no expression after the =; write such as =0.5 * height.")
@@ -100,7 +107,8 @@ def _parsed(text: str) -> ast.Expression:
                 node.value = float(node.value)
             except OverflowError as error:
                 raise BadExpression(f"={text} has a number that is too large; write one below 1.8e308.") from error
-    return tree
+    words = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    return tree, tuple(sorted(words))
 
 
 def _open(dimension: Dimension) -> bool:
@@ -108,36 +116,34 @@ def _open(dimension: Dimension) -> bool:
     return bool(dimension.exponents[-1])
 
 
-def _dimension(node: ast.expr, units: Mapping[str, Dimension], text: str) -> Dimension:
+def _dimension(node: ast.expr, scope: _Scope, text: str) -> Dimension:
     match node:
         case ast.Constant(value=int() | float()) if not isinstance(node.value, bool):
             return _PLAIN
         case ast.Name(id=name):
-            return _named(name, units)
+            return _named(name, scope)
         case ast.UnaryOp(op=ast.USub() | ast.UAdd(), operand=operand):
-            return _dimension(operand, units, text)
+            return _dimension(operand, scope, text)
         case ast.BinOp(left=left, op=op, right=right):
-            return _operation(left, op, right, units, text)
+            return _operation(left, op, right, scope, text)
         case ast.Call(func=ast.Name(id=name), args=args, keywords=[]) if name in _FUNCTIONS:
-            return _call(name, [_dimension(a, units, text) for a in args], text)
+            return _call(name, [_dimension(a, scope, text) for a in args], text)
         case ast.Call(func=ast.Name(id=name)):
             raise BadExpression(f"{name}() is not a function of expressions. {did_you_mean(name, _FUNCTIONS)}")
     raise BadExpression(f"={text}: {_RULE}")
 
 
-def _named(name: str, units: Mapping[str, Dimension]) -> Dimension:
-    if name in units:
-        return units[name]
+def _named(name: str, scope: _Scope) -> Dimension:
+    if name in scope:
+        return parse_unit(scope[name][1]).dimension.without_angle
     if name in _CONSTANTS:
         return _PLAIN
-    hint = did_you_mean(name, units) if units else "Declare it under parameters: first."
+    hint = did_you_mean(name, scope) if scope else "Declare it under parameters: first."
     raise BadExpression(f"there is no parameter {name} here. {hint}")
 
 
-def _operation(
-    left: ast.expr, op: ast.operator, right: ast.expr, units: Mapping[str, Dimension], text: str
-) -> Dimension:
-    a, b = _dimension(left, units, text), _dimension(right, units, text)
+def _operation(left: ast.expr, op: ast.operator, right: ast.expr, scope: _Scope, text: str) -> Dimension:
+    a, b = _dimension(left, scope, text), _dimension(right, scope, text)
     match op:
         case ast.Mult():
             return a * b
