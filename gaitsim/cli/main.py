@@ -77,7 +77,7 @@ def _check_words(words: list[str]) -> None:
     try:
         os.getcwd()  # noqa: PTH109 (only asked whether it is there)
     except FileNotFoundError as error:
-        raise Usage("the current folder is not there any more; change to one that is.") from error
+        raise Usage("the current folder no longer exists; change to another one.") from error
 
 
 def _other(error: Exception) -> int:

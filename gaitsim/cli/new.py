@@ -66,7 +66,7 @@ def _new_folder(folder: Path, origin: str, json: bool) -> None:
     from gaitsim.study.template import study
 
     if folder.exists():
-        raise Usage(f"{folder} is there already; gaitsim new makes a folder of its own, so choose another name.")
+        raise Usage(f"{folder} exists already; gaitsim new makes a folder of its own, so choose another name.")
     files = study(origin)
     write_new({folder / name: text for name, text in files.items()}, "name another folder")
     if json:

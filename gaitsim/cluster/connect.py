@@ -116,7 +116,7 @@ def _check_protocol(address: str, place: str) -> None:
     try:
         asyncio.run(greet())
     except Exception as error:  # an answer of another program can make any reader fail
-        rule = "what answers there is no Dask scheduler, or one of another version"
+        rule = "this is not a Dask scheduler, or one of another version"
         raise ClusterError(f"{place}: {rule}; start one: dask scheduler.") from error
 
 

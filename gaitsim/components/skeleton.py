@@ -100,7 +100,7 @@ def _check_name(kind: str, name: str, library: Library) -> None:
         raise Usage(f"{name} is not a name for a component; write small letters, digits and _, such as my_{kind}.")
     known = library.path(f"{kind}/{name}")
     if known is not None:
-        raise Usage(f"{kind}/{name} is there already ({shown(known)}); choose another name.")
+        raise Usage(f"{kind}/{name} exists already ({shown(known)}); choose another name.")
 
 
 def _from_contract(class_name: str, contract: Path, text: str) -> str:

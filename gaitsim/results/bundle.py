@@ -86,7 +86,7 @@ class Bundle:
             found = json.loads(self.files[START])
             return {str(address): float(value) for address, value in found.items()}
         except (ValueError, TypeError, AttributeError, OverflowError, RecursionError) as error:
-            rule = "these are no numbers by address; restore this file from a copy."
+            rule = "this is not a mapping of addresses to numbers; restore this file from a copy."
             raise BadResult(Fault(rule, Mark(str(self.folder / START)))) from error
 
     def model(self) -> Model:

@@ -42,7 +42,7 @@ def pack(folder: Path, target: Path) -> None:
     if state_of(folder, manifest["status"]) == "running":
         raise BadResult(f"{folder}: its search is running; wait for its end, or stop it and resume it later.")
     if target.exists():
-        raise CannotSave(f"{target}: this is there already and is never written over; choose another --out.")
+        raise CannotSave(f"{target}: this exists already and is never overwritten; choose another --out.")
     inside = (path for path in sorted(folder.rglob("*")) if path.is_file())
     names = [name for path in inside if _FILES.fullmatch(name := path.relative_to(folder).as_posix())]
     try:
@@ -81,7 +81,7 @@ def _unpacked(archive: Path, file: zipfile.ZipFile, root: Path) -> Path:
     name = _checked(archive, entries)
     target = root / name
     if target.exists() or target.is_symlink():
-        raise CannotSave(f"{target}: a result of this name is there already; nothing was changed. Choose another --results.")
+        raise CannotSave(f"{target}: a result of this name exists already; nothing was changed. Choose another --results.")
     draft = root / f"{name}.{os.getpid()}{PARTIAL}"
     try:
         for entry in entries:

@@ -31,7 +31,7 @@ def stand(model: Any, data: Any, lift: int, touching: tuple[Touching, ...], reli
     mujoco.mj_kinematics(model, data)
     gaps = [_gap(model, data, place, relief) for place in touching]
     if not gaps or not np.all(np.isfinite(gaps)):
-        rule = "the initial pose cannot stand: no part of it touches the ground"
+        rule = "the initial pose cannot be placed on the ground: no part of it touches the ground"
         raise SimulationFailed(f"{rule}; add a contact, or set the height in initial:")
     data.qpos[lift] -= min(gaps)
 

@@ -39,14 +39,14 @@ def close_loops(model: Any, data: Any, set_positions: Collection[int], set_veloc
         gap, rows = _newton(model, data, gap, rows, free)
     if not _size(gap) <= _CLOSED:
         worst = model.equality(int(data.efc_id[int(np.argmax(np.abs(gap)))])).name.rpartition(".")[0]
-        rule = f"no initial pose closes {worst}: {_size(gap):.3g} m or rad stay open"
+        rule = f"no initial pose closes {worst}: a gap of {_size(gap):.3g} m or rad remains"
         raise SimulationFailed(f"{rule}; change what initial: sets, or set less of it")
     moving = [dof for dof in range(model.nv) if dof not in set_velocities]
     rate = rows @ data.qvel
     if _size(rate) > 0:
         data.qvel[moving] -= np.linalg.lstsq(rows[:, moving], rate)[0]
     if _size(rows @ data.qvel) > 1e-9 * (1 + _size(data.qvel)):
-        rule = "no velocities of the coordinates that initial: leaves free keep the loops of bodies closed"
+        rule = "no velocities of the coordinates that initial: does not set keep the loops of bodies closed"
         raise SimulationFailed(f"{rule}; change what initial: sets, or set less of it")
 
 

@@ -244,7 +244,7 @@ def _report(detail: Any, document: MappingNode, faults: Faults) -> None:
         case "too_short":
             faults.add(f"there is nothing in it; write {sample}.", mark, address)
         case "greater_than_equal":
-            faults.add(f"{detail['input']} is too small; this is at least {detail['ctx']['ge']}.", mark, address)
+            faults.add(f"{detail['input']} is too small; the smallest value is {detail['ctx']['ge']}.", mark, address)
         case "greater_than" | "less_than_equal":
             words = {"gt": "above", "le": "at most"}
             (limit,) = (f"{words[key]} {value:g}" for key, value in detail["ctx"].items() if key in words)

@@ -178,14 +178,14 @@ def _looked_at(replay: Replay, window: tuple[float | None, float | None]) -> Rep
         Usage: The window has no instant.
     """
     if not replay.times.size:
-        raise SimulationFailed(f"{replay.label}: nothing to look at; the run {replay.ending}")
+        raise SimulationFailed(f"{replay.label}: nothing to analyze; the run {replay.ending}")
     if window == (None, None):
         return replay
     part = replay.between(*window)
     if not part.times.size:
         begin, end = window
         wanted = f"from {begin or 0:g} s" + (f" to {end:g} s" if end is not None else "")
-        raise Usage(f"{replay.label}: nothing to look at {wanted}; the run goes from 0 s to {replay.times[-1]:g} s.")
+        raise Usage(f"{replay.label}: nothing to analyze {wanted}; the run goes from 0 s to {replay.times[-1]:g} s.")
     return part
 
 

@@ -295,7 +295,7 @@ def _row(spec: Archived, index: int, outcomes: Sequence[Outcome]) -> Row:
     """
     first, settings = outcomes[0], spec.rows[index].settings
     if len(outcomes) > 1 and first.status == "failed":
-        rule = f"this fails, and an archive holds what runs: {first.reason}"
+        rule = f"this fails, and an archive contains only models that run: {first.reason}"
         raise SimulationFailed(Fault(rule, Mark(shown(spec.path)), run_words(settings)))
     statuses = dict.fromkeys(outcome.status for outcome in outcomes)
     units = {STEPS: "1", SCORE: "1"} | spec.models[index].metrics

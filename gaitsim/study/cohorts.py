@@ -66,7 +66,7 @@ class CohortRequest:
         if self.retune < 0:
             raise Usage(f"--retune {self.retune}: a number of evaluations for each row, or 0 for none.")
         if self.seed is not None and self.seed < 0:
-            raise Usage(f"--seed {self.seed}: this is at least 0.")
+            raise Usage(f"--seed {self.seed}: the smallest value is 0.")
 
 
 @dataclass(frozen=True)
@@ -254,7 +254,7 @@ def resumed_cohort(opening: Opening) -> CohortRuns:
     cohort = cohort_of(bundle)
     changed = changed_versions(manifest)
     if changed:
-        rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
+        rule = f"it was made with other versions ({', '.join(changed)}), so it would not continue identically"
         raise BadResult(f"{opening.path}: {rule}; install those, or start again.")
     model, rows = opened.model(), read_rows(opening.path, incomplete=True)
     mode: Mode = "normal" if manifest["mode"] == "normal" else "rapid"

@@ -31,13 +31,13 @@ def draws_asked(
     if count is None:
         for option, value in (("--within", within), ("--seed", seed)):
             if value is not None:
-                raise Usage(f"{option} {value}: this is of --draws; say how many, such as --draws 10, or leave it out.")
+                raise Usage(f"{option} {value}: this needs --draws; add a number, such as --draws 10, or leave it out.")
         return None
     for name, number, least in (("draws", count, 1), ("seed", seed, 0)):
         if number is not None and number < least:
-            raise Usage(f"--{name} {number}: this is at least {least}.")
+            raise Usage(f"--{name} {number}: the smallest value is {least}.")
     if vary:
-        rule = "draws are of one spec, and --vary makes several"
+        rule = "--draws applies to one spec, and --vary makes several"
         raise Usage(f"--draws {count}: {rule}; take one at a time, such as --set {vary[0].partition('=')[0]}=VALUE.")
     if out is not None:
         raise Usage("--out writes one trajectory; drop --draws, or write one draw of its result: --candidate NUMBER.")
@@ -64,7 +64,7 @@ def drawn_models(models: Sequence[Model], draws: Draws, spec: Path) -> tuple[lis
     from gaitsim.results.tuned import problem_of
 
     if len(models) > 1:
-        rule = f"draws are of one spec, and {spec} is a study of {len(models)} runs"
+        rule = f"--draws applies to one spec, and {spec} is a study of {len(models)} runs"
         raise Usage(f"--draws {draws.count}: {rule}; take one of its result with --candidate, or --set study=null.")
     (model,) = models
     if not model.free:

@@ -201,8 +201,8 @@ class LimitRuns:
             if not limit.bracket.held[0.0]:
                 beside = "".join(f" at {address} = {value}" for address, value in limit.beside.items())
                 mark = Mark(f"--vary {limit.address}={limit.at(0)}:{limit.at(1)}{beside}")
-                rule = f"at {limit.at(0)}, where it begins, it does not hold ({self.until.said(limit.outcomes[0.0])})"
-                faults.append(Fault(f"{rule}; begin where it does.", mark))
+                rule = f"the run fails at the first end, {limit.at(0)} ({self.until.said(limit.outcomes[0.0])})"
+                faults.append(Fault(f"{rule}; start the range at a value with which it succeeds.", mark))
         if faults:
             raise SimulationFailed(faults)
 
@@ -274,7 +274,7 @@ def resumed(opening: Opening, listener: Listener) -> LimitRuns:
     asked, limits = _recorded(opening.path, opened.manifest)
     changed = changed_versions(dict(opened.manifest))
     if changed:
-        rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
+        rule = f"it was made with other versions ({', '.join(changed)}), so it would not continue identically"
         raise BadResult(f"{opening.path}: {rule}; install those, or start again.")
     rows = read_rows(opening.path, incomplete=True)
     mode: Mode = "normal" if opened.manifest["mode"] == "normal" else "rapid"

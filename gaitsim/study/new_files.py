@@ -20,7 +20,7 @@ def write_new(files: Mapping[Path, str], move: str) -> None:
 
     taken = [path for path in files if path.exists()]
     if taken:
-        rule = "is there already and is never written over; choose another name, or move it away"
+        rule = "exists already and is never overwritten; choose another name, or move it away"
         raise CannotSave(f"{taken[0]}: this {rule}.")
     made: list[Path] = []
     try:

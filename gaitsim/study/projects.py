@@ -178,7 +178,7 @@ def _free_folder(name: str, lab: Path) -> Path:
     if taken is not None:
         known = _read(taken / PROJECT) if (taken / PROJECT).is_file() else None
         by = f", started by {known.author} on {known.date}" if known else ""
-        raise Usage(f"{name}: {taken} is there already{by}; nothing was changed. Choose another name.")
+        raise Usage(f"{name}: {taken} exists already{by}; nothing was changed. Choose another name.")
     return folder
 
 

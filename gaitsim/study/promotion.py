@@ -104,7 +104,7 @@ def asked(
         raise Usage("there is no lab here, whose library it could go to; name a library: --to FOLDER.")
     to = target or (lab / "library" if lab else Path())
     if to.resolve() == folder.resolve():
-        raise Usage(f"--to {to}: the component is there already; name another library.")
+        raise Usage(f"--to {to}: the component exists already; name another library.")
     return Request(reference, folder, to, test or folder.parent / "tests" / f"test_{name}.py", replace, force, scope)
 
 
@@ -113,7 +113,7 @@ def promoted(request: Request, listener: Listener) -> Promoted:
     pass.
 
     Raises:
-        Usage: Something is there already.
+        Usage: Something exists already.
         InvalidComponent: Docs, sources, bounds or the test are lacking, or the test fails.
         Changes: Users of the version that is there would change.
         CannotSave: The library cannot be written.
@@ -220,10 +220,10 @@ def _taken(request: Request, files: Mapping[Path, str]) -> bool:
     for path, text in files.items():
         other = path.is_file() and path.name != FILE and path.read_text(encoding="utf-8") != text
         if other and not request.replace:
-            rule = "this is there already and is never written over unasked"
-            raise Usage(f"{shown(path)}: {rule}; choose another name, or use --replace.")
+            rule = "this exists already and is overwritten only with --replace"
+            raise Usage(f"{shown(path)}: {rule}; choose another name, or add it.")
     if known is not None and not request.replace:
-        rule = f"{request.reference} is there already ({shown(known)})"
+        rule = f"{request.reference} exists already ({shown(known)})"
         raise Usage(f"{rule}; choose another name, or use --replace, which runs all its users first.")
     return known is not None
 

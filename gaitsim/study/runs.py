@@ -76,7 +76,7 @@ class Places:
         spacing = seconds_of("--every", self.every)
         if spacing is not None:
             if self.out is None:
-                rule = "this is of --out; name a file, such as --out run.csv, or leave it out"
+                rule = "this needs --out; name a file, such as --out run.csv, or leave it out"
                 raise Usage(f"--every {self.every}: {rule}.")
             steps_in(spacing, models[0].simulate.step)
         return spacing

@@ -69,7 +69,7 @@ def check_adoption(opening: Opening, adopt: bool, force: bool) -> None:
         Usage: An adoption that cannot be.
     """
     if force and not adopt:
-        raise Usage("--force is of --adopt: it replaces better values; add --adopt, or leave it out.")
+        raise Usage("--force needs --adopt: it replaces better values; add --adopt, or leave it out.")
     if adopt and opening.names_result:
         raise Usage(f"--adopt writes beside a spec, and {opening.path} is a result; name the spec, with --resume.")
 
@@ -125,7 +125,7 @@ def resumed(request: Request, root: Path) -> Tuning:
     search = _recorded_search(folder, manifest)
     changed = changed_versions(manifest)
     if changed:
-        rule = f"it was made with other versions ({', '.join(changed)}), so it would not go on as it began"
+        rule = f"it was made with other versions ({', '.join(changed)}), so it would not continue identically"
         raise BadResult(f"{folder}: {rule}; install those, or start a new search with --from {folder}.")
     check_trust(bundle, request.opening.trusted)
     _check_links(folder)
@@ -190,7 +190,7 @@ def _check_least(numbers: Mapping[str, int | None]) -> None:
     """
     for name, number in numbers.items():
         if number is not None and number < _LEAST[name]:
-            raise Usage(f"--{name} {number}: this is at least {_LEAST[name]}.")
+            raise Usage(f"--{name} {number}: the smallest value is {_LEAST[name]}.")
 
 
 def _search_of(opened: Opened, request: Request) -> dict[str, Any]:

@@ -204,7 +204,7 @@ class _Reader:
         node: Node | None = None
         for number, line in enumerate(self.lines):
             if found := _CONTROL.search(line):
-                rule = f"U+{ord(found[0]):04X} is a control character, which a spec may not hold"
+                rule = f"U+{ord(found[0]):04X} is a control character, which a spec must not contain"
                 self.faults.add(f"{rule}; remove it.", self.mark(number, found.start()))
         self.faults.raise_if_any()
         self.events = yaml.parse(self.text, Loader=_LOADER)
@@ -272,7 +272,7 @@ class _Reader:
                 self.fault(f"a key must be text; write {move}.", event)
             elif word in entries:
                 first = f" (first in line {keys[word].line})" if self.lines_count else ""
-                rule = f"{word} stands here twice{first}"
+                rule = f"{word} occurs twice here{first}"
                 self.fault(f"{rule}; remove or rename one of the two.", event)
             else:
                 entries[word], keys[word] = value, key.mark

@@ -60,7 +60,7 @@ def explained(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[str, int, 
     if "mapping values" in problem:
         if ": " in before:
             return 'a second ": " in one line; put the text after the first in quotes.', *here
-        rule = "this key cannot stand below the line above, which holds a value or lacks its colon"
+        rule = "this key cannot be nested below the line above, which has a value or lacks its colon"
         return f'{rule}; align the two, or write "key: value" there.', *here
     if "could not find expected ':'" in problem:
         return 'a key without a colon; write "key: value".', *opened
@@ -71,12 +71,12 @@ def explained(error: yaml.MarkedYAMLError, lines: list[str]) -> tuple[str, int, 
     if "entries are not allowed" in problem:
         return "a list item (-) cannot begin here; begin it on a line of its own.", *here
     if "collection" in context or "'-' indicator" in problem:
-        return "a key cannot stand among list items; indent it, or begin it with a dash.", *here
+        return "a key cannot be among list items; indent it, or begin it with a dash.", *here
     if "block mapping" in context:
         if before.strip():
             return "the value ended before this; remove it, or put the whole in quotes.", *here
         if letter == "-":
-            return "a list item (-) cannot stand among keys; indent it below its key.", *here
+            return "a list item (-) cannot be among keys; indent it below its key.", *here
         return "this fits the indentation of no line above; align it with its neighbours.", *here
     if "tag" in context or "tag" in problem:
         return "a spec may not have tags (!); remove it, or put the text in quotes.", *opened

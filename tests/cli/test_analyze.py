@@ -220,7 +220,7 @@ def test_a_run_that_breaks_is_looked_at_up_to_there(run: Run) -> None:
 def test_a_run_that_breaks_at_once(run: Run) -> None:
     said = run("analyze", "spec.yaml", "--set", "brake.limit=40 deg", "--json")
     assert said.code == 4
-    assert said.err.startswith("spec: nothing to look at; the run failed: brake (controller/brake) raised in ")
+    assert said.err.startswith("spec: nothing to analyze; the run failed: brake (controller/brake) raised in ")
     assert json.loads(said.out)["status"] == "failed"
 
 
@@ -369,7 +369,7 @@ USAGE = {
     ),
     ("--every", "soon"): "--every soon: write a time, such as '2 s' or '300 ms'.",
     ("--to-time", "late"): "--to-time late: write a time, such as '2 s' or '300 ms'.",
-    ("--from-time", "9"): "spec: nothing to look at from 9 s; the run goes from 0 s to 5.999 s.",
+    ("--from-time", "9"): "spec: nothing to analyze from 9 s; the run goes from 0 s to 5.999 s.",
     ("--candidate", "2"): "--candidate 2: spec.yaml is a spec; candidates belong to results.",
 }
 

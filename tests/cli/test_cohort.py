@@ -273,7 +273,7 @@ def test_no_text_in_utf_8(capsys: pytest.CaptureFixture[str]) -> None:
         (("stone.yaml",), 2, "there is no table of bodies; name one, such as gaitsim cohort stone.yaml bodies.csv, or"),
         (("stone.yaml", "no.csv"), 2, "no.csv: there is no such file; name a table of bodies with columns such as"),
         (("stone.yaml", "bodies.csv", "--retune", "-1"), 2, "--retune -1: a number of evaluations for each row, or 0"),
-        (("stone.yaml", "bodies.csv", "--seed", "-1"), 2, "--seed -1: this is at least 0."),
+        (("stone.yaml", "bodies.csv", "--seed", "-1"), 2, "--seed -1: the smallest value is 0."),
         (
             ("stone.yaml", "bodies.csv", "--metric", "ways"),
             2,

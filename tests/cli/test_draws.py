@@ -170,12 +170,12 @@ def test_in_a_process_of_its_own(spec: str) -> None:
         (
             ("--within", "1 %"),
             2,
-            "--within 1 %: this is of --draws; say how many, such as --draws 10, or leave it out.",
+            "--within 1 %: this needs --draws; add a number, such as --draws 10, or leave it out.",
         ),
-        (("--seed", "3"), 2, "--seed 3: this is of --draws; say how many, such as --draws 10, or leave it out."),
-        (("--draws", "0"), 2, "--draws 0: this is at least 1."),
-        (("--draws", "-3"), 2, "--draws -3: this is at least 1."),
-        (("--draws", "3", "--seed", "-1"), 2, "--seed -1: this is at least 0."),
+        (("--seed", "3"), 2, "--seed 3: this needs --draws; add a number, such as --draws 10, or leave it out."),
+        (("--draws", "0"), 2, "--draws 0: the smallest value is 1."),
+        (("--draws", "-3"), 2, "--draws -3: the smallest value is 1."),
+        (("--draws", "3", "--seed", "-1"), 2, "--seed -1: the smallest value is 0."),
         (
             ("--draws", "3", "--within", "-1 %"),
             2,
@@ -200,13 +200,13 @@ def test_in_a_process_of_its_own(spec: str) -> None:
         (
             ("--draws", "3", "--vary", f"{MASS}=1 kg,2 kg"),
             2,
-            "--draws 3: draws are of one spec, and --vary makes several; take one at a time, "
+            "--draws 3: --draws applies to one spec, and --vary makes several; take one at a time, "
             "such as --set stone.mass=VALUE.",
         ),
         (
             ("--draws", "3", "--set", "study=[{stone.mass: 1 kg}, {stone.mass: 2 kg}]"),
             2,
-            "--draws 3: draws are of one spec, and stone.yaml is a study of 2 runs; take one of its result with "
+            "--draws 3: --draws applies to one spec, and stone.yaml is a study of 2 runs; take one of its result with "
             "--candidate, or --set study=null.",
         ),
         (

@@ -93,7 +93,7 @@ def test_a_folder_that_is_gone(gaitsim: Callable[..., Said], tmp_path: Path) -> 
     (tmp_path / "away").rmdir()
     said = gaitsim("results", "list")
     os.chdir(tmp_path)
-    assert (said.code, said.err) == (2, "the current folder is not there any more; change to one that is.\n")
+    assert (said.code, said.err) == (2, "the current folder no longer exists; change to another one.\n")
 
 
 @pytest.mark.parametrize("where", ["reference", "part", "address", "key"])

@@ -53,7 +53,7 @@ def test_nothing_is_written_over(capsys: pytest.CaptureFixture[str]) -> None:
     Path("tests/test_my_muscle.py").write_text("mine")
     said = gaitsim(capsys, "library", "new", "muscle", "my_muscle")
     assert said.code == 3
-    assert said.err.startswith("tests/test_my_muscle.py: this is there already and is never written over")
+    assert said.err.startswith("tests/test_my_muscle.py: this exists already and is never overwritten")
     assert Path("tests/test_my_muscle.py").read_text() == "mine"
     assert not Path("components").exists()
 
@@ -68,7 +68,7 @@ def test_nothing_is_written_over(capsys: pytest.CaptureFixture[str]) -> None:
         ),
         (["muscle", "kind"], "kind is not a name for a component"),
         (["muscle", "class"], "class is not a name for a component"),
-        (["muscle", "geyer2010"], "muscle/geyer2010 is there already ("),
+        (["muscle", "geyer2010"], "muscle/geyer2010 exists already ("),
         (["muscle", "mine", "--like", "path/sites"], "--like path/sites: this is not a muscle; choose one of muscle/"),
     ],
 )

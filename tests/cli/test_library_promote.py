@@ -139,7 +139,7 @@ def test_one_that_is_there_is_replaced_only_if_its_users_stay_what_they_are(
     words = ("muscle/geyer2003", str(users))
     said = promote(capsys, *words)
     assert said.code == 2
-    assert said.err.startswith("muscle/geyer2003 is there already (")
+    assert said.err.startswith("muscle/geyer2003 exists already (")
     assert said.err.endswith("; choose another name, or use --replace, which runs all its users first.\n")
     said = promote(capsys, *words, "--replace")
     assert said.code == 4
@@ -154,7 +154,7 @@ def test_one_that_is_there_is_replaced_only_if_its_users_stay_what_they_are(
     ("words", "said"),
     [
         (["controller/other"], "controller/other: components has no such component. Here are: controller/mine.\n"),
-        (["controller/mine", "--to", "components"], "--to components: the component is there already; name another"),
+        (["controller/mine", "--to", "components"], "--to components: the component exists already; name another"),
     ],
 )
 def test_what_cannot_be_promoted_is_told(

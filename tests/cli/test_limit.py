@@ -279,8 +279,8 @@ FINE = ("--vary", "stone.mass=1 kg:2 kg")
         (
             ("--vary", f"{HEIGHT}=-1 m:1 m"),
             4,
-            f"--vary {HEIGHT}=-1.0 m:1.0 m: at -1.0 m, where it begins, it does not hold (landed at 0.001 s); "
-            "begin where it does.",
+            f"--vary {HEIGHT}=-1.0 m:1.0 m: the run fails at the first end, -1.0 m (landed at 0.001 s); "
+            "start the range at a value with which it succeeds.",
         ),
         (
             ("--vary", "stone.mass=1 kg"),
@@ -352,8 +352,8 @@ FINE = ("--vary", "stone.mass=1 kg:2 kg")
         (
             ("--vary", f"{HEIGHT}=2 m:1 m", "--over", "simulate.duration=0.5 s,1 s"),
             4,
-            f"--vary {HEIGHT}=2.0 m:1.0 m at simulate.duration = 1 s: at 2.0 m, where it begins, it does not hold "
-            "(landed at 0.64 s); begin where it does.",
+            f"--vary {HEIGHT}=2.0 m:1.0 m at simulate.duration = 1 s: the run fails at the first end, 2.0 m "
+            "(landed at 0.64 s); start the range at a value with which it succeeds.",
         ),
         ((*FINE, "--points", "1"), 2, "--points 1: a scan has at least 2 values, the two ends."),
         (

@@ -114,7 +114,7 @@ def test_every_shipped_spec_of_a_new_folder_starts_well(origin: str, capsys: pyt
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["taken"], "taken is there already; gaitsim new makes a folder of its own, so choose another name."),
+        (["taken"], "taken exists already; gaitsim new makes a folder of its own, so choose another name."),
         (["demo", "--from", "hoping_leg_mass"], "--from hoping_leg_mass: no such spec is shipped. Did you mean"),
     ],
 )

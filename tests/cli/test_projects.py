@@ -94,11 +94,11 @@ def test_projects_are_found_from_anywhere_below_the_lab(
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["project", "alice"], "alice: {lab}/projects/alice is there already, started by "),
-        (["project", "ALICE"], "ALICE: {lab}/projects/alice is there already, started by "),
+        (["project", "alice"], "alice: {lab}/projects/alice exists already, started by "),
+        (["project", "ALICE"], "ALICE: {lab}/projects/alice exists already, started by "),
         (
             ["project", "taken"],
-            "taken: {lab}/projects/taken is there already; nothing was changed. Choose another name.",
+            "taken: {lab}/projects/taken exists already; nothing was changed. Choose another name.",
         ),
         (["project", "../x"], "../x: a project's name is that of its folder and its spec: letters, digits, _ and -, a"),
         (

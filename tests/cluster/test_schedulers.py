@@ -91,7 +91,7 @@ class listener:
 def test_something_else_listens(study: Study, says: bytes) -> None:
     with listener(says) as port:
         said = refused(study, "--scheduler", f"tcp://127.0.0.1:{port}")
-    assert f"tcp://127.0.0.1:{port}: what answers there is no Dask scheduler" in said
+    assert f"tcp://127.0.0.1:{port}: this is not a Dask scheduler" in said
 
 
 @pytest.mark.parametrize("text", [None, "{", "{}", "[]", '{"address": 5}', '{"address": "tcp://127.0.0.1:1"}'])

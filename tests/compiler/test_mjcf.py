@@ -104,8 +104,8 @@ def test_what_mujoco_refuses_is_named_by_its_line_in_the_spec() -> None:
             "parent: upper.distal, child: lower.proximal",
             "parent: lower.distal, child: upper.distal",
             "spec.yaml:6:3: bottom",
-            "upper is carried by top and, at another place, by bottom; "
-            "a segment has one joint above it, or several with the same parent and child.",
+            "upper is the child of top and, at another place, of bottom; "
+            "a segment is the child of one joint, or of several with the same parent and child.",
         ),
         (
             "parent: world",

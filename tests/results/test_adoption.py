@@ -75,5 +75,5 @@ def test_force_belongs_to_adopt(command: Any) -> None:
     ended = command("optimize", "spec.yaml", *SEARCH, "--force")
     assert (ended.code, ended.err) == (
         2,
-        "--force is of --adopt: it replaces better values; add --adopt, or leave it out.\n",
+        "--force needs --adopt: it replaces better values; add --adopt, or leave it out.\n",
     )

@@ -74,7 +74,7 @@ def test_a_colleague_verifies_it(
     assert "look at this" in (made / "README.md").read_text()
     assert not (made / "figures").exists()
     again = gaitsim("results", "import", f"../{result.name}.zip")
-    rule = "a result of this name is there already; nothing was changed. Choose another --results."
+    rule = "a result of this name exists already; nothing was changed. Choose another --results."
     assert (again.code, again.err) == (3, f"{made}: {rule}\n")
     assert gaitsim("results", "import", f"../{result.name}.zip", "--results", "other").code == 0
 
@@ -88,7 +88,7 @@ def test_the_same_result_gives_the_same_bytes(result: Path, gaitsim: Command) ->
     taken = gaitsim("results", "export", str(result), "--out", "two.zip")
     assert (taken.code, taken.err) == (
         3,
-        "two.zip: this is there already and is never written over; choose another --out.\n",
+        "two.zip: this exists already and is never overwritten; choose another --out.\n",
     )
 
 

@@ -200,5 +200,5 @@ def test_starts_that_are_no_numbers(folder: Path, start: str, gaitsim: Any) -> N
     ended = gaitsim("check", "results/R")
     assert (ended.code, ended.err) == (
         3,
-        "results/R/start.json: these are no numbers by address; restore this file from a copy.\n",
+        "results/R/start.json: this is not a mapping of addresses to numbers; restore this file from a copy.\n",
     )

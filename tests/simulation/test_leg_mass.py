@@ -50,7 +50,7 @@ def test_what_initial_sets_stays_and_velocities_follow() -> None:
 
 
 def test_a_pose_that_closes_no_loop_is_a_failed_run() -> None:
-    said = "no initial pose closes restrictor: .* stay open; change what initial: sets"
+    said = "no initial pose closes restrictor: a gap of .* remains; change what initial: sets"
     with pytest.raises(SimulationFailed, match=said):
         simulator(LEG, [("initial.hip.angle", "20 deg")])
 

@@ -221,7 +221,7 @@ def test_only_what_is_set_bears_the_mark_of_the_setting() -> None:
         (
             "leg.gain",
             "{a: 1, a: 2}",
-            ("--set leg.gain={a: 1, a: 2}: a stands here twice; remove or rename one of the two."),
+            ("--set leg.gain={a: 1, a: 2}: a occurs twice here; remove or rename one of the two."),
         ),
     ],
 )

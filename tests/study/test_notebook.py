@@ -125,7 +125,7 @@ def test_what_cannot_be_asked_is_refused(spec: Path) -> None:
         gaitsim.run(spec, candidate="2")
     with pytest.raises(Usage, match="--points 1: a scan has at least 2 values"):
         gaitsim.limit(spec, {HEIGHT: "1 m:2 m"}, points=1)
-    with pytest.raises(Usage, match="--force is of --adopt"):
+    with pytest.raises(Usage, match="--force needs --adopt"):
         gaitsim.optimize(spec, force=True)
     with pytest.raises(TypeError, match="plots"):
         gaitsim.analyze(spec, plots="*")

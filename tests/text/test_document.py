@@ -90,7 +90,7 @@ a.yaml:1:5: a second ": " in one line; put the text after the first in quotes.
     1 | a: b: c
       |     ^""",
     "a: 1\n  b: 2\n": """\
-a.yaml:2:4: this key cannot stand below the line above, which holds a value or lacks its colon; \
+a.yaml:2:4: this key cannot be nested below the line above, which has a value or lacks its colon; \
 align the two, or write "key: value" there.
     2 |   b: 2
       |    ^""",
@@ -119,11 +119,11 @@ a.yaml:1:8: the value ended before this; remove it, or put the whole in quotes.
     1 | a: 'x' y
       |        ^""",
     "a: 1\n- 2\n": """\
-a.yaml:2:1: a list item (-) cannot stand among keys; indent it below its key.
+a.yaml:2:1: a list item (-) cannot be among keys; indent it below its key.
     2 | - 2
       | ^""",
     "- 1\na: 2\n": """\
-a.yaml:2:1: a key cannot stand among list items; indent it, or begin it with a dash.
+a.yaml:2:1: a key cannot be among list items; indent it, or begin it with a dash.
     2 | a: 2
       | ^""",
     "a: - 1\n": """\
@@ -131,7 +131,7 @@ a.yaml:1:4: a list item (-) cannot begin here; begin it on a line of its own.
     1 | a: - 1
       |    ^""",
     "a: \x1b[0m\n": """\
-a.yaml:1:4: U+001B is a control character, which a spec may not hold; remove it.
+a.yaml:1:4: U+001B is a control character, which a spec must not contain; remove it.
     1 | a:  [0m
       |    ^""",
 }
@@ -145,7 +145,7 @@ def test_mistakes_in_yaml_are_explained(text: str) -> None:
 
 REFUSED = {
     "a: 1\nb: 2\na: 3\n": """\
-a.yaml:3:1: a stands here twice (first in line 1); remove or rename one of the two.
+a.yaml:3:1: a occurs twice here (first in line 1); remove or rename one of the two.
     3 | a: 3
       | ^""",
     "a: !!python/name:os.system x\n": """\
@@ -308,7 +308,7 @@ def test_a_value_alone_follows_the_same_rules() -> None:
     assert str(caught.value).startswith("--set a=[1, 2: ")
     with pytest.raises(InvalidSpec) as caught:
         parse_value("{b: 1, b: 2}", "--set a")
-    assert str(caught.value) == "--set a: b stands here twice; remove or rename one of the two."
+    assert str(caught.value) == "--set a: b occurs twice here; remove or rename one of the two."
     with pytest.raises(InvalidSpec) as caught:
         parse_value("#fff", "--set a=#fff")
     assert str(caught.value) == ("--set a=#fff: there is no value; write one, in quotes if it begins with #.")

@@ -40,8 +40,8 @@ def branches(model: Model, values: Sequence[float]) -> list[Branch]:
             faults.add("its child is the ground; exchange parent and child.", joint.mark, joint.address)
             children_of_ground.add(_owner(joint.attachments["parent"], segments))
         elif above and _ends(above[0], values) != _ends(joint, values):
-            rule = f"{child} is carried by {above[0].address} and, at another place, by {joint.address}"
-            move = "a segment has one joint above it, or several with the same parent and child"
+            rule = f"{child} is the child of {above[0].address} and, at another place, of {joint.address}"
+            move = "a segment is the child of one joint, or of several with the same parent and child"
             faults.add(f"{rule}; {move}.", joint.mark, joint.address)
         else:
             above.append(joint)

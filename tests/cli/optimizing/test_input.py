@@ -46,9 +46,9 @@ def test_nothing_is_tuned(study: Study, command: Any) -> None:
 @pytest.mark.parametrize(
     ("words", "said"),
     [
-        (["--population", "1"], "--population 1: this is at least 2."),
-        (["--generations", "0"], "--generations 0: this is at least 1."),
-        (["--seed", "-1"], "--seed -1: this is at least 0."),
+        (["--population", "1"], "--population 1: the smallest value is 2."),
+        (["--generations", "0"], "--generations 0: the smallest value is 1."),
+        (["--seed", "-1"], "--seed -1: the smallest value is 0."),
         (["--algorithm", "cme"], "--algorithm cme: there is no such algorithm. Did you mean cma?"),
         (["--workers", "-1"], "--workers -1: a number of processes, or 0 for this one."),
         (["--cluster"], "--cluster needs --scheduler tcp://host:port or --scheduler-file FILE."),
@@ -59,7 +59,7 @@ def test_nothing_is_tuned(study: Study, command: Any) -> None:
         (["--from", "nowhere"], "--from nowhere: this is not a result; write tuned, middle, or a folder"),
         (["--from", "tuned", "--resume"], "--from begins a new search, and --resume continues an old one"),
         (["--smoke", "--resume"], "--smoke begins a new search, and --resume continues an old one"),
-        (["--resume", "--generations", "-3"], "--generations -3: this is at least 1."),
+        (["--resume", "--generations", "-3"], "--generations -3: the smallest value is 1."),
     ],
 )
 def test_a_command_line_that_does_not_fit(study: Study, command: Any, words: list[str], said: str) -> None:
