@@ -2,10 +2,39 @@ import math
 
 from gaitsim.component import Component, Curve, Input, Output, Parameter, Refused
 
-from ._corners import blend, draw, steepness
-
+# The largest prime of the form 3 k + 2 below 2^26: cubing permutes the numbers below it, and doubles hold every
+# product.
+PRIME = 67108859.0
 STEEPEST = 1.0  # of the ground: contacts take it for a plane where they touch it
 BESIDE = 0.25  # cells between a row of corners and the x axis: along a row the ground never leans to a side
+
+
+def remainder(number):
+    """What is left of a whole number, divided by the prime."""
+    return number - PRIME * math.floor(number / PRIME)
+
+
+def near(number):
+    """A number within those whose products are exact."""
+    return min(1e9, max(-1e9, number))
+
+
+def draw(seed, column, row):
+    """A number between -1 and 1 for a corner: that of one seed is the same in both modes and on any machine."""
+    value = remainder(remainder(near(seed) * 12289.0 + near(column) * 40961.0) + remainder(near(row) * 65537.0))
+    for salt in range(1, 4):
+        value = remainder(remainder(value * value) * value + 1299709.0 * salt)
+    return 2 * value / (PRIME - 1) - 1
+
+
+def blend(share):
+    """A smooth step from 0 to 1: level at both ends."""
+    return share * share * (3 - 2 * share)
+
+
+def steepness(share):
+    """The derivative of the smooth step."""
+    return 6 * share * (1 - share)
 
 
 def corner(amplitude, cell, first, seed, column, row):
@@ -16,7 +45,7 @@ def corner(amplitude, cell, first, seed, column, row):
 def surface(amplitude, cell, first, seed, position, side_position):
     """The height at a place, and how it grows with either position."""
     ahead, beside = position / cell, side_position / cell + BESIDE
-    column, row = math.floor(ahead), math.floor(beside)
+    column, row = ahead // 1, beside // 1
     along, aside = ahead - column, beside - row
     right = corner(amplitude, cell, first, seed, column, row)
     left = corner(amplitude, cell, first, seed, column, row + 1)
@@ -76,7 +105,7 @@ class Rough(Component):
 
     @staticmethod
     def output(p, u, x, y):
-        whole = math.floor(p.seed)
+        whole = p.seed // 1
         y.height, y.gradient, y.side_gradient = surface(
             p.amplitude, p.cell, p.first, whole, u.position, u.side_position
         )
@@ -88,4 +117,4 @@ class Rough(Component):
         if steepest > STEEPEST:
             rule = f"its slope can reach {steepest:.3g}, and contacts are accurate up to a slope of {STEEPEST:g}"
             raise Refused(f"{rule}; for this amplitude, make cell at least {3 * p.amplitude:.3g} m")
-        mj.ground(relief=(surface, (p.amplitude, p.cell, p.first, math.floor(p.seed))))
+        mj.ground(relief=(surface, (p.amplitude, p.cell, p.first, p.seed // 1)))
