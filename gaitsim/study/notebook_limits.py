@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from gaitsim.errors import Usage
 from gaitsim.folders import results_folder
 from gaitsim.study.listening import LogListener
 from gaitsim.study.notebook import File, Settings, opening
@@ -63,10 +64,12 @@ def limit(
 
     opened = opening(path, set, library, start, trust, candidate, results)
     ranges = [f"{address}={ends}" for address, ends in vary.items()] if vary is not None else None
-    at = next((f"{address}={values}" for address, values in over.items()), None) if over else None
+    at = [f"{address}={values}" for address, values in (over or {}).items()]
+    if len(at) > 1:
+        raise Usage(f"over={dict(over or {})}: limits are found over one number; give one of them to set.")
     asked = {
         "vary": ranges,
-        "over": at,
+        "over": at[0] if at else None,
         "until": until,
         "tolerance": tolerance,
         "points": points,

@@ -10,6 +10,7 @@ import pytest
 import gaitsim
 from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.searches.limits import limit_figures
+from gaitsim.errors import Usage
 from tests.analysis.replays import of_result
 
 STONE = """
@@ -57,6 +58,11 @@ def test_limits_over_other_numbers_are_a_line(tmp_path: Path) -> None:
     assert list(masses) == [1, 2, 3]
     assert sizes == pytest.approx(0.1 / 0.035 * masses, abs=0.25)
     assert axes.get_xlabel() == "stone.mass (kg)" and axes.get_ylabel() == "push.strength (N)"
+
+
+def test_limits_over_two_numbers_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(Usage, match="limits are found over one number; give one of them to set"):
+        drawn(tmp_path, {"stone.mass": "1 kg,2 kg", "push.azimuth": "0 deg,90 deg"})
 
 
 def test_limits_without_another_number_have_no_such_figure(tmp_path: Path) -> None:
