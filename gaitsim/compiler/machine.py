@@ -29,6 +29,8 @@ _MUJOCO = (
     *("mj_step1", "mj_step2", "mj_forwardSkip", "mj_RungeKutta"),
     *("mj_kinematics", "mj_comPos", "mj_makeM", "mj_comVel", "mj_subtreeVel", "mj_rne"),
     *("mj_sensorPos", "mj_sensorVel", "mj_energyPos", "mj_energyVel", "mj_factorM", "mj_solveM"),
+    *("mj_tendon", "mj_transmission", "mj_fwdVelocity", "mj_fwdActuation", "mj_fwdAcceleration", "mj_fwdConstraint"),
+    *("mj_Euler", "mj_implicit"),
 )
 MAKERS = (
     "chains",

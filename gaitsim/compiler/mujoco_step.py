@@ -17,6 +17,10 @@ from gaitsim.compiler.writer import INTEGER, NOTHING, POINTER, SHORT, Writer
 if TYPE_CHECKING:
     from gaitsim.compiler.functions import Functions
 
+# What `mj_step1` and `mj_step2` call in a model without constraints and sensors, besides energies and the integrator.
+_POSITIONS = ("mj_kinematics", "mj_comPos", "mj_tendon", "mj_makeM", "mj_factorM", "mj_transmission")
+_FORCES = ("mj_fwdActuation", "mj_fwdAcceleration", "mj_fwdConstraint")
+
 
 @dataclass(frozen=True)
 class MujocoStep:
@@ -26,25 +30,28 @@ class MujocoStep:
 
     def look(self, f: Writer) -> None:
         """Emit the first half: everything that follows from positions and velocities."""
+        if self.of.plan.integrate:
+            self._calls(f, *_POSITIONS, *(["mj_energyPos"] if self.of.plan.energy else []))
+            self._calls(f, "mj_fwdVelocity", *(["mj_energyVel"] if self.of.plan.energy else []))
+            return
         if not self.of.plan.own_stages:
             self._call(f, "mj_step1")
             return
-        for name in ("mj_kinematics", "mj_comPos", "mj_makeM", "mj_comVel"):
-            self._call(f, name)
+        self._calls(f, "mj_kinematics", "mj_comPos", "mj_makeM", "mj_comVel")
         self._own(f, "look_at_paths")
         self._own(f, "look_at_contacts")
         self._call(f, "mj_rne", SHORT(0), self._address(f, "qfrc_bias"))
-        for name in ("mj_subtreeVel", "mj_sensorPos", "mj_sensorVel"):
-            self._call(f, name)
+        self._calls(f, "mj_subtreeVel", "mj_sensorPos", "mj_sensorVel")
         if self.of.plan.energy:
-            self._call(f, "mj_energyPos")
-            self._call(f, "mj_energyVel")
+            self._calls(f, "mj_energyPos", "mj_energyVel")
 
     def advance(self, f: Writer) -> None:
         """Emit the second half: forces, accelerations, and the next instant."""
         if self.of.plan.runge_kutta:
             self._call(f, "mj_forwardSkip", SHORT(AFTER_VELOCITIES), SHORT(0))
             self._call(f, "mj_RungeKutta", SHORT(4))
+        elif self.of.plan.integrate:
+            self._calls(f, *_FORCES, self.of.plan.integrate)
         elif not self.of.plan.own_stages:
             self._call(f, "mj_step2")
         else:
@@ -53,6 +60,10 @@ class MujocoStep:
             self._call(f, "mj_factorM")
             self._call(f, "mj_solveM", self._address(f, "acceleration"), self._address(f, "total"), SHORT(1))
             self._own(f, "advance")
+
+    def _calls(self, f: Writer, *names: str) -> None:
+        for name in names:
+            self._call(f, name)
 
     def _call(self, f: Writer, name: str, *given: Any) -> None:
         kinds = [POINTER, POINTER, *(each.type for each in given)]

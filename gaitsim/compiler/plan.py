@@ -57,6 +57,7 @@ class Plan:
         coordinates: The number of MuJoCo's positions and velocities.
         runge_kutta: Whether MuJoCo uses the integrator rk4.
         energy: Whether MuJoCo computes energies.
+        integrate: MuJoCo's integrator, of models that need few of its stages, each of which is called alone; else "".
         own_stages: Whether gaitsim makes stages of MuJoCo's step itself; see `compiler/stages.py`.
         guards: The parts with events, and the output that rises through 0.
         resets: The numbers that events set, as in `writes`, and the port that says when.
@@ -75,6 +76,7 @@ class Plan:
     coordinates: tuple[int, int]
     runge_kutta: bool
     energy: bool
+    integrate: str
     own_stages: bool
     states: int
     outputs: int
@@ -128,6 +130,7 @@ def plan_of(program: Program, assembly: Assembly) -> tuple[Plan, dict[str, Kerne
         (int(assembly.model.nq), int(assembly.model.nv)),
         assembly.runge_kutta,
         assembly.energy,
+        assembly.integrate,
         assembly.own_stages,
         program.states.size,
         program.outputs.size,

@@ -191,3 +191,17 @@ def test_names_that_a_verb_takes_are_checked_before_it_runs(verb: str) -> None:
     count, _, _ = VERBS[verb]
     _, *arguments = inspect.signature(getattr(Mechanics, verb)).parameters.values()
     assert [argument.annotation for argument in arguments[:count]] == ["str"] * count
+
+
+@pytest.mark.parametrize(
+    ("name", "integrate"),
+    [
+        ("hopping_geyer2003", "mj_Euler"),
+        ("hopping_leg_mass", ""),  # has an equality
+        ("walking_geyer2010", ""),  # has sensors
+        ("running_slip", "mj_Euler"),
+    ],
+)
+def test_stages_are_called_one_by_one_where_few_are_needed(name: str, integrate: str) -> None:
+    chosen = model(HOPPER.parent / f"{name}.yaml")
+    assert assemble(chosen, chosen.values(), dressed=False).integrate == integrate
