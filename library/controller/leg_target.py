@@ -2,12 +2,12 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter
 
 
 class LegTarget(Component):
-    """Where a leg in swing shall go: its target angle from how the trunk is over the other foot (Song & Geyer 2015).
+    """Target angle of a swing leg from the motion of the trunk relative to the other foot (Song & Geyer 2015).
 
-    a = a_0 + c_d d + c_v v in the world, and a + c_theta theta from the trunk. d is how far the trunk's center of mass
-    is from the other ankle, v its velocity. In the sagittal plane d and v count forwards, the angle is that of the leg,
-    which is less the further it is in front, and c_theta is -1: a trunk that leans forwards turns the hip with it.
-    Sideways d and v count outwards, the angle is the abduction of the hip, and c_theta is 1.
+    a = a_0 + c_d d + c_v v in the world, and a + c_theta theta relative to the trunk. d is the distance of the trunk's
+    center of mass from the other ankle, v its velocity. In the sagittal plane d and v are positive forwards, a is the
+    leg angle, which decreases as the leg moves forwards, and c_theta is -1, because the hip turns with the trunk. In
+    the frontal plane d and v are positive outwards, a is the abduction of the hip, and c_theta is 1.
     """
 
     nominal = Parameter("deg", "a_0: angle at no distance and no velocity.", bounds=(-360, 360))

@@ -2,10 +2,10 @@ from gaitsim.component import Component, Input, Output
 
 
 class MotorNerve(Component):
-    """Carries an excitation to a muscle, as late as its connection says: `excitation: {from: ..., delay: 5 ms}`."""
+    """Passes an excitation to a muscle with the delay of its connection: `excitation: {from: ..., delay: 5 ms}`."""
 
-    excitation = Input("1", "What leaves the spinal cord.")
-    arriving = Output("1", "What arrives.")
+    excitation = Input("1", "Excitation that leaves the spinal cord.")
+    arriving = Output("1", "Excitation that arrives at the muscle.")
 
     @staticmethod
     def output(p, u, x, y):

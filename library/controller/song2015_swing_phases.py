@@ -4,19 +4,19 @@ from gaitsim.component import Component, Input, Output, Parameter, State
 
 
 def biceps_length(clearance, segment, slope, reference):
-    """Fiber length of the short head of the biceps at which the leg is as short as the clearance asks."""
+    """Fiber length of the short head of the biceps at which the leg is as short as the clearance."""
     cosine = (2 * segment * segment - clearance * clearance) / (2 * segment * segment)
     knee = math.acos(max(-1.0, min(1.0, cosine)))
     return 1 + slope * (knee - reference)
 
 
 class Song2015SwingPhases(Component):
-    """Which modules of swing are open one after the other: M7, M8, M9 and M10 of Song & Geyer (2015).
+    """Gates of the swing modules M7, M8, M9 and M10, which open one after the other (Song & Geyer 2015).
 
-    M7 flexes the knee until the leg is as short as the clearance, as the short head of the biceps tells. Then M8 holds
-    the knee until the leg has come to its target, as the rectus femoris tells, M9 stops the leg from where the
-    hamstrings are longer than at the target, and M10 prepares stance once they shorten again. What has
-    happened is remembered until the leg stands without being about to swing; it counts from the next step on.
+    M7 flexes the knee until the length of the short head of the biceps shows that the leg is short enough for the
+    clearance. Then M8 holds the knee until the length of the rectus femoris shows that the leg reached its target. M9
+    stops the leg while the hamstrings are longer than at the target. M10 prepares stance once they shorten again. The
+    phases are remembered until the leg is in stance and not about to swing; they take effect one step later.
     """
 
     clearance = Parameter(

@@ -2,7 +2,7 @@ from gaitsim.component import Component, Input, Output, Parameter
 
 
 class Song2015SwingReaction(Component):
-    """Takes up what the other leg does to the trunk as it swings: M4 of Song & Geyer (2015).
+    """Compensates the reaction of the trunk to the other leg's swing: M4 of Song & Geyer (2015).
 
     Hip flexors: k_1 S_c,GLU + k_2 S_c,HAM. Glutei: k_3 S_c,HFL + k_4 S_c,RF. Hamstrings: k_GH times the glutei's. S_c
     are stimulations of the other leg's modules of swing, M6 and M10 of hip flexors and glutei, M8 of the rectus femoris

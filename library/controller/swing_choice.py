@@ -2,19 +2,19 @@ from gaitsim.component import Component, Input, Output
 
 
 class SwingChoice(Component):
-    """Which leg starts its swing while both stand: the one that is further from its target (Song & Geyer 2015).
+    """Selects the leg that swings next in double support: the one further from its target (Song & Geyer 2015).
 
-    How far a leg is from its target is |a - a_tgt| + |b - b_tgt|, with the angle of the leg a = phi_hip - phi_knee / 2
-    in the sagittal plane, and the abduction b of the hip. Each leg has such a part, which reads the distance of the
-    other.
+    The distance of a leg from its target is |a - a_tgt| + |b - b_tgt|, with the angle of the leg
+    a = phi_hip - phi_knee / 2 in the sagittal plane, and the abduction b of the hip. Each leg has such a part, which
+    reads the distance of the other.
     """
 
-    hip_angle = Input("rad", "phi_hip: 180 deg upright, grows in extension.")
-    knee_angle = Input("rad", "phi_knee: 180 deg straight, grows in extension.")
+    hip_angle = Input("rad", "phi_hip: 180 deg upright, increases in extension.")
+    knee_angle = Input("rad", "phi_knee: 180 deg straight, increases in extension.")
     target = Input("rad", "a_tgt: target angle of the leg.")
     abduction = Input("rad", "b: abduction of the hip.", default=0)
     abduction_target = Input("rad", "b_tgt.", default=0)
-    opposite_mismatch = Input("rad", "How far the other leg is from its target.")
+    opposite_mismatch = Input("rad", "Distance of the other leg from its target.")
     in_stance = Input("1", "1 while the leg stands.")
     opposite_in_stance = Input("1", "1 while the other leg stands.")
     angle = Output("rad", "a: angle of the leg; 90 deg if it is under an upright trunk, less in front of it.")

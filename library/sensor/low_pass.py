@@ -4,11 +4,11 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, State
 
 
 class LowPass(Component):
-    """A signal that follows another with a time constant: tau x' = u - x. It starts where the other is."""
+    """First-order low-pass filter of a signal: tau x' = u - x. It starts at the value of the signal."""
 
     time_constant = Parameter("s", "tau.", bounds=(1e-6, 100))
     signal = Input("*", "Any signal.")
-    followed = State("*", "What it has come to.")
+    followed = State("*", "The filtered signal.")
     filtered = Output("*", "The signal that follows.")
 
     step_response = Curve(

@@ -4,15 +4,15 @@ from gaitsim.component import Attachment, Component, Input, Output
 
 
 class RelativeMotion(Component):
-    """Where a place is as seen from another, and how fast it moves over the ground, along a heading.
+    """Position of one place relative to another, and its velocity over the ground, along a heading.
 
-    The trunk's center of mass as seen from an ankle, say. Of a part of the left side (`sides: [l, r]`), what is medial
+    An example is the trunk's center of mass relative to an ankle. For a part of the left side (`sides: [l, r]`), medial
     is to the right, else to the left.
     """
 
     frame = Attachment("The place.")
-    origin = Attachment("The place that it is seen from.")
-    heading = Input("rad", "Direction that counts as forwards: turn to the left.", default=0)
+    origin = Attachment("The place relative to which it is measured.")
+    heading = Input("rad", "Forward direction: angle to the left.", default=0)
     side = Output("1", "-1 for a part of the left side, else 1.")
     x = Output("m", "Position of the place along the world's x axis.")
     y = Output("m", "Its position along the y axis.")
