@@ -43,7 +43,7 @@ def progress(what: str, quiet: bool = False) -> Callable[[int, int], None]:
     """
     terminal, said = sys.stderr.isatty(), time.monotonic()
 
-    def hear(done: int, count: int) -> None:
+    def report(done: int, count: int) -> None:
         nonlocal said
         if terminal:
             rewrite("" if done == count else f"{what}: {done} of {count}")
@@ -51,7 +51,7 @@ def progress(what: str, quiet: bool = False) -> Callable[[int, int], None]:
             said = time.monotonic()
             say(f"{what}: {done} of {count}")
 
-    return hear
+    return report
 
 
 @contextmanager

@@ -11,11 +11,11 @@ from types import FrameType
 
 from gaitsim.errors import ExitCode
 
-_HEARD = (signal.SIGINT, signal.SIGTERM)
+_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 
 
 @contextmanager
-def heard_once() -> Iterator[None]:
+def interrupt_once() -> Iterator[None]:
     """In this block, the first of these signals raises KeyboardInterrupt; the next one ends the process silently.
 
     Ignored signals stay ignored, as for a command that a shell runs in the background.
@@ -23,19 +23,19 @@ def heard_once() -> Iterator[None]:
     if threading.current_thread() is not threading.main_thread():
         yield
         return
-    heard = False
+    received = False
 
-    def hear(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 (as signal calls it)
-        nonlocal heard
-        if heard:
+    def handle(number: int, frame: FrameType | None) -> None:  # noqa: ARG001 (as signal calls it)
+        nonlocal received
+        if received:
             os._exit(ExitCode.INTERRUPTED)
-        heard = True
+        received = True
         raise KeyboardInterrupt
 
-    before = {number: signal.getsignal(number) for number in _HEARD}
+    before = {number: signal.getsignal(number) for number in _SIGNALS}
     for number, handler in before.items():
         if handler is not signal.SIG_IGN:
-            signal.signal(number, hear)
+            signal.signal(number, handle)
     try:
         yield
     finally:

@@ -10,7 +10,7 @@ import sys
 import traceback
 
 from gaitsim.cli import console
-from gaitsim.cli.interrupts import heard_once
+from gaitsim.cli.interrupts import interrupt_once
 from gaitsim.errors import ExitCode, GaitsimError, Usage
 
 # A run makes 100,000 objects that stay to its end, most of them at imports. To look for garbage among them, as
@@ -28,7 +28,7 @@ def main(arguments: list[str] | None = None) -> None:
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="backslashreplace")  # a file name can contain any bytes
     try:
-        with heard_once():
+        with interrupt_once():
             code = _ran(sys.argv[1:] if arguments is None else arguments)
     except BrokenPipeError:
         # The reader of our output (such as head) has ended.

@@ -228,7 +228,7 @@ def _run(
     """The outcomes of all runs of specs, for each change of gravity, or the error of a spec. All run in parallel."""
     calls = []
     prepared: dict[Archived, int | GaitsimError] = {}
-    hear = listener.progress("models prepared")
+    report = listener.progress("models prepared")
     for count, spec in enumerate(specs, start=1):
         try:
             simulators = [Simulator(_nudged(model, nudge)) for model in spec.models for nudge in nudges]
@@ -236,8 +236,8 @@ def _run(
             calls += [simulator.run for simulator in simulators]
         except GaitsimError as error:
             prepared[spec] = error
-        hear(count, len(specs))
-    hear = listener.progress("runs")
+        report(count, len(specs))
+    report = listener.progress("runs")
     outcomes = in_threads(calls, cores())
     done = 0
     for spec in specs:
@@ -249,7 +249,7 @@ def _run(
         for _ in range(ready):
             mine.append(next(outcomes))
             done += 1
-            hear(done, len(calls))
+            report(done, len(calls))
         yield spec, list(zip(*[iter(mine)] * len(nudges), strict=True))
 
 

@@ -144,13 +144,13 @@ class CohortRuns:
             ClusterError: The workers are lost. The rows before are saved.
             KeyboardInterrupt: The rows before are saved.
         """
-        hear, rows = listener.progress("rows"), self.cohort.rows
+        report, rows = listener.progress("rows"), self.cohort.rows
         try:
             for i, found in self._endings(workplace, listener):
                 self.found[i] = found
                 more = {"body": rows[i].body, "evaluations": found.evaluations, "values": dict(found.values)}
                 self.saver.add(rows[i].settings, found.outcome, more)
-                hear(len(self.found), len(rows))
+                report(len(self.found), len(rows))
         except BaseException:
             self._close("interrupted")
             raise

@@ -117,7 +117,7 @@ class ReturnMap:
         return np.array(columns).T
 
 
-def cycle(opening: Opening, mode: Mode, listener: Listener, hear: Callable[[int, int], None]) -> Cycle:
+def cycle(opening: Opening, mode: Mode, listener: Listener, report: Callable[[int, int], None]) -> Cycle:
     """Find the periodic gait near the start of a spec.
 
     The spec has parameters `initial_NAME` and, for each, a `measure/section` of that NAME. The signal of the section at
@@ -127,7 +127,7 @@ def cycle(opening: Opening, mode: Mode, listener: Listener, hear: Callable[[int,
         opening: The spec or result.
         mode: Native code ("rapid") or plain Python ("normal").
         listener: Receives notices.
-        hear: Receives the number of iterations of Newton's method, and the largest number.
+        report: Receives the number of iterations of Newton's method, and the largest number.
 
     Raises:
         Usage: The spec has no such parameters.
@@ -145,17 +145,17 @@ def cycle(opening: Opening, mode: Mode, listener: Listener, hear: Callable[[int,
     found = ReturnMap(model, *_pairs(model, str(opening.path)), mode)
     values = model.values()
     addresses = [number.address for number in model.numbers]
-    return fixed_point(found, np.array([values[addresses.index(name)] for name in found.names]), hear)
+    return fixed_point(found, np.array([values[addresses.index(name)] for name in found.names]), report)
 
 
-def fixed_point(of: ReturnMap, start: Floats, hear: Callable[[int, int], None] = lambda done, count: None) -> Cycle:
+def fixed_point(of: ReturnMap, start: Floats, report: Callable[[int, int], None] = lambda done, count: None) -> Cycle:
     """Find the fixed point of a return map near a start, by Newton's method.
 
     Raises:
         SimulationFailed: It is not found.
     """
     for done in range(_ROUNDS):
-        hear(done, _ROUNDS)
+        report(done, _ROUNDS)
         away = of(start) - start
         slopes = of.slopes(start)
         try:

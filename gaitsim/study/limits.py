@@ -139,13 +139,13 @@ class LimitRuns:
             InvalidComponent: A component file breaks the contract.
             KeyboardInterrupt: The runs before are saved.
         """
-        hear, most = listener.progress("runs"), sum(limit.bracket.most for limit in self.limits)
+        report, most = listener.progress("runs"), sum(limit.bracket.most for limit in self.limits)
         try:
             while asked := [(limit, share) for limit in self.limits for share in limit.bracket.ask()]:
                 for (limit, share), outcome in zip(asked, self._outcomes(asked, listener), strict=True):
                     limit.outcomes[share] = outcome
                     limit.bracket.tell(share, self.until.holds(outcome, limit.outcomes[0.0]))
-                    hear(len(self.rows), most)
+                    report(len(self.rows), most)
                 self._check_begun()
         except KeyboardInterrupt:
             self.saver.close("interrupted")
@@ -154,7 +154,7 @@ class LimitRuns:
             self.saver.close()
             raise
         self.saver.close()
-        hear(most, most)
+        report(most, most)
 
     @property
     def over(self) -> list[str]:

@@ -81,14 +81,14 @@ class Products:
         from gaitsim.analysis.drawings.drawing import save
 
         taken: set[str] = set()
-        hear = self.listener.progress("figures")
+        report = self.listener.progress("figures")
         for k, maker in enumerate(makers, start=1):
             for drawing in self.attempt("a figure", maker) or []:
                 named = _renamed(drawing, taken)
                 self.drawings.append(named)
                 where = self.folder / "figures"
                 self.figures += self.attempt(f"the figure {named.name}", partial(save, [named], where, formats)) or []
-            hear(k, len(makers))
+            report(k, len(makers))
 
     def export(self, replays: Sequence[Replay], formats: Sequence[str], every: float | None) -> None:
         """Write the signals of each run in each format of `FORMATS` that is named.

@@ -179,11 +179,11 @@ class Runs:
                 outcome = simulator.run(recorded=self.out is not None)
             yield outcome
             return
-        hear = listener.progress("runs")
+        report = listener.progress("runs")
         for count, outcome in enumerate(run_each(self.simulated, self.mode, self.starts.look_at), start=1):
             if count == 1:
                 self._warn(listener)
-            hear(count, len(self.simulated))
+            report(count, len(self.simulated))
             yield outcome
 
     def _warn(self, listener: Listener) -> None:

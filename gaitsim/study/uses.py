@@ -98,14 +98,14 @@ def using_specs(reference: str, scope: Scope, listener: Listener) -> Iterator[Us
         Usage: The request does not fit.
     """
     specs = scope.specs()
-    hear = listener.progress("specs read")
+    report = listener.progress("specs read")
     for count, spec in enumerate(specs, start=1):
         try:
             version = spec.made_from().components.get(reference)
         except GaitsimError as error:
             listener.say_error(error)
             version = None
-        hear(count, len(specs))
+        report(count, len(specs))
         if version is not None:
             yield UsingSpec(spec, version)
 

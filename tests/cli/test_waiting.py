@@ -30,11 +30,11 @@ def test_what_tells_nothing_of_itself_is_waited_for_aloud(quiet: bool, capsys: p
 
 @pytest.mark.parametrize("quiet", [False, True])
 def test_steps_are_counted_every_few_seconds(quiet: bool, capsys: pytest.CaptureFixture[str]) -> None:
-    hear = console.progress("runs", quiet)
-    hear(1, 3)
+    report = console.progress("runs", quiet)
+    report(1, 3)
     time.sleep(0.03)
-    hear(2, 3)
-    hear(3, 3)
+    report(2, 3)
+    report(3, 3)
     assert capsys.readouterr().err == ("" if quiet else "runs: 2 of 3\n")
 
 

@@ -131,9 +131,9 @@ def test_a_signal_saves_and_says_how_to_go_on(
 
 _SLOW_TO_END = """\
 import time
-from gaitsim.cli.interrupts import heard_once
+from gaitsim.cli.interrupts import interrupt_once
 
-with heard_once():
+with interrupt_once():
     try:
         print("ready", flush=True)
         time.sleep(60)
