@@ -1,0 +1,67 @@
+"""How a deviation of a walk in space grows from touchdown to touchdown: `python bench/orbit.py`.
+
+The start is turned by 2 and 5 mrad in roll, to both sides. At each touchdown seven numbers of the walk (`regular.py`)
+are compared with those of the undisturbed one. It draws docs/pictures/scone_growth.png and prints the factor per step.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import matplotlib.pyplot as plt
+import numpy as np
+from regular import SCALES, Walks, touchdowns
+
+from gaitsim.study.opening import Opening
+
+ROOT = Path(__file__).resolve().parents[1]
+SPEC = ROOT / "specs" / "walking_scone_h1922.yaml"
+SPHERES = ("heel", "lateral_toe", "medial_toe")
+CASES: Mapping[str, Sequence[str]] = {
+    "at 0.5 ms": (),
+    "at 0.25 ms": ("simulate.step=0.25 ms",),
+    "at 1 ms": ("simulate.step=1 ms",),
+    "contacts twice as damped": [f"leg.{name}.dissipation=2 s/m" for name in SPHERES],
+    "contacts twice as stiff": [f"leg.{name}.stiffness=11006.4 N^(2/3)/m" for name in SPHERES],
+    "half the delay of balance": ("leg.balance_delay=25 ms",),
+}
+TURNS = (-5e-3, -2e-3, 2e-3, 5e-3)  # rad
+STEPS = 10
+
+
+def deviations(settings: Sequence[str]) -> Any:
+    """The size of the deviation after each touchdown, as the geometric mean over all starts."""
+    walks = Walks(Opening(SPEC, ("simulate.duration=8 s", *settings)).open().model(), 0.0)
+    start = np.array(walks.model.start)
+    roll = [free.address for free in walks.model.free].index("initial.root.roll")
+    tables = []
+    for turn in (0.0, *TURNS):
+        x = start.copy()
+        x[roll] += turn
+        found = walks.run(x, [0]).trajectory
+        assert found is not None
+        tables.append(touchdowns(found)[1 : STEPS + 1])
+    length = min(map(len, tables))
+    sizes = [np.linalg.norm((each[:length] - tables[0][:length]) / SCALES, axis=1) for each in tables[1:]]
+    return np.exp(np.mean(np.log(sizes), axis=0))
+
+
+def main() -> None:
+    """Draw and print."""
+    figure, panel = plt.subplots(figsize=(6, 3.6), layout="constrained")
+    for name, settings in CASES.items():
+        sizes = deviations(settings)
+        steps = np.arange(2, len(sizes) + 2)
+        factor = float(np.exp(np.polyfit(steps, np.log(sizes), 1)[0]))
+        print(f"{name}: {factor:.2f} per step, {len(sizes)} steps")
+        panel.semilogy(steps, sizes, "o-", ms=3, lw=1, label=f"{name}: x {factor:.2f} per step")
+    panel.set(xlabel="touchdown", ylabel="deviation from the undisturbed walk")
+    panel.legend(frameon=False, fontsize=8)
+    panel.spines[["top", "right"]].set_visible(False)
+    figure.savefig(ROOT / "docs" / "pictures" / "scone_growth.png", dpi=110)
+
+
+if __name__ == "__main__":
+    main()
