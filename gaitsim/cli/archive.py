@@ -38,7 +38,7 @@ What = Annotated[
 
 @app.command("list")
 def list_models(what: What = None, json: Json = False) -> None:
-    """List models with their papers, their deviations from known values, and their recorded runs.
+    """List models with their papers, known values and records.
 
     Example: gaitsim archive list
     """
@@ -62,7 +62,7 @@ def list_models(what: What = None, json: Json = False) -> None:
 
 @app.command("check")
 def check(what: What = None, library: Libraries = None, json: Json = False) -> int:
-    """Run models again and compare with their records; in parallel.
+    """Run models again, in parallel, and compare with their records.
 
     Examples:
 
@@ -94,7 +94,7 @@ def check(what: What = None, library: Libraries = None, json: Json = False) -> i
 
 @app.command("record")
 def record(what: What = None, library: Libraries = None, json: Json = False) -> int:
-    """Run models and write their results to records/ beside each spec. Recorded numbers that still hold are kept.
+    """Run models and write their records, in records/ beside each spec. Recorded numbers that still hold are kept.
 
     Each model runs three times, to estimate how much rounding on another machine may change its metrics.
 

@@ -30,7 +30,7 @@ def check(
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Check a spec: syntax, units, connections, components and mechanics.
+    """Check a spec: syntax, units, connections, components, mechanics.
 
     All faults are reported at once.
 

@@ -19,7 +19,9 @@ def cite(
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Print BibTeX for what a model uses: sources of its numbers, components, MuJoCo, and the search that tuned it.
+    """Print BibTeX for everything that a model uses.
+
+    This includes the sources of its numbers, its components, MuJoCo, and the search that tuned it.
 
     Examples:
 

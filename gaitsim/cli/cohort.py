@@ -60,7 +60,7 @@ def cohort(
     library: Libraries = None,
     json: Json = False,
 ) -> int:
-    """Run a spec for each body of a table, and each value of a device, into one table.
+    """Run a spec for each body of a table and each value of a device. The results are one table.
 
     An invalid row, or a row whose model falls, does not stop the others. Every row is saved as it ends, and an
     interrupted cohort can continue.

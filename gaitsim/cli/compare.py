@@ -35,7 +35,9 @@ def compare(
     results: Results = None,
     json: Json = False,
 ) -> int:
-    """Compare two results or specs: models part by part and value by value, then metrics and gaits, with figures.
+    """Compare two results or specs: models, metrics and gaits.
+
+    Models are compared part by part and value by value. Figures show both runs.
 
     Example: gaitsim results compare results/2026-11-22-hopping-3f9c results/2026-11-26-alice-41d0
     """

@@ -28,7 +28,9 @@ def cycle(
     library: Libraries = None,
     json: Json = False,
 ) -> int:
-    """Find the periodic gait of a model: the fixed point of its return map, and the eigenvalues there.
+    """Find the periodic gait of a model, and whether it is stable.
+
+    The gait is the fixed point of a return map, and the eigenvalues there say whether it is stable.
 
     The spec has parameters initial_NAME and, for each, a measure/section of that NAME, whose signal at its next passage
     is what the parameter was at this one. Newton's method starts at the values of the spec.

@@ -61,7 +61,7 @@ def show_component(
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Show what a component declares: parameters, ports, states, with units and sources.
+    """Show what a component declares: parameters, inputs, outputs. Each has its unit and its source.
 
     Examples:
 
@@ -100,7 +100,7 @@ def check_components(
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Check component files: names, units, documentation, sources, bounds, kind and native code.
+    """Check component files. The checks are of names, units, documentation, sources, bounds, kind and native code.
 
     Examples:
 

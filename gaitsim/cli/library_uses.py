@@ -42,7 +42,7 @@ def used_by(
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """List the specs and results that use a component or a table, with the version of each.
+    """List the specs and results that use a component or a table. Each has the version of the component.
 
     Example: gaitsim library used-by muscle/geyer2003
     """
@@ -71,7 +71,7 @@ def test(
     library: Libraries = None,
     json: Json = False,
 ) -> int:
-    """Run all specs and results that use a component with its current version, and compare with their recorded numbers.
+    """Run all specs and results that use a component, and compare. They run with its current version.
 
     Specs are compared with their records, and results, with the component put in the place of their copies, with
     themselves. Do this before a changed component is accepted.
@@ -102,7 +102,7 @@ def history(
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """List the versions of a component: from git, as it stands now, and from the copies that results hold.
+    """List the versions of a component: in git, now, and in results.
 
     Example: gaitsim library history muscle/geyer2003
     """

@@ -61,7 +61,7 @@ def limit(
     library: Libraries = None,
     json: Json = False,
 ) -> int:
-    """Find the largest disturbance that a model survives: pushes, slopes, steps, noise.
+    """Find the largest disturbance that a model survives. Disturbances are pushes, slopes, steps or noise.
 
     Each --vary is varied alone: first a scan of its range, then bisection at the first failure.
 

@@ -40,7 +40,7 @@ def new(
     results: Results = None,
     json: Json = False,
 ) -> None:
-    """Create a folder with a model that runs; or a project in your lab, from a result or a spec.
+    """Create a folder with a model that runs, or a project in a lab. A project starts from a result or a spec.
 
     Examples:
 

@@ -116,7 +116,7 @@ def verify(
     trust: Trust = False,
     json: Json = False,
 ) -> int:
-    """Run candidates again from the result's own copies and compare bit for bit.
+    """Run candidates again and compare bit for bit. They run from the result's own copies.
 
     Example: gaitsim results verify results/2026-11-22-hopping-3f9c
     """

@@ -25,7 +25,7 @@ def note(
     words: Annotated[list[str], typer.Argument(metavar="TEXT...", help="Text of the note.")],
     results: Results = None,
 ) -> None:
-    """Add a note to a result, with your name and the day; notes are not part of its digest.
+    """Add a note to a result, with your name and the day. Notes are not part of its digest.
 
     Example: gaitsim results note results/2026-11-22-hopping-3f9c 'the reflex of 2003, tuned for height'
     """
@@ -49,7 +49,7 @@ def export(
     ] = None,
     results: Results = None,
 ) -> None:
-    """Write a result as one zip file for a colleague, who can verify, resume and analyze it.
+    """Write a result as one zip file for a colleague. They can verify, resume and analyze it.
 
     Example: gaitsim results export results/2026-11-22-hopping-3f9c
     """
@@ -68,7 +68,7 @@ def import_result(
     results: Results = None,
     json: Json = False,
 ) -> None:
-    """Add a colleague's result to yours, and list the code that it brings. None of it is run.
+    """Add a colleague's result to yours. The code that it contains is listed, and none of it is run.
 
     Example: gaitsim results import 2026-11-22-hopping-3f9c.zip
     """

@@ -58,7 +58,7 @@ def run(
     library: Libraries = None,
     json: Json = False,
 ) -> int:
-    """Simulate a spec, or a candidate of a result, and print its metrics.
+    """Simulate a spec or a candidate of a result, and print metrics.
 
     Examples:
 

@@ -19,7 +19,7 @@ def schema(
     library: Libraries = None,
     json: Json = True,  # noqa: ARG001 (a schema is JSON anyway)
 ) -> None:
-    """Print the JSON Schema of specs, with every component of the library.
+    """Print the JSON Schema of specs, with all components.
 
     Example: gaitsim schema > gaitsim.schema.json
     """

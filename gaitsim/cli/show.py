@@ -26,7 +26,7 @@ def show(
     library: Libraries = None,
     json: Json = False,
 ) -> None:
-    """Show the resolved model: parts, parameters, connections, MuJoCo model.
+    """Show the resolved model: parts, numbers, connections, mechanics.
 
     Example: gaitsim show specs/hopping_geyer2003.yaml --connections
     """

@@ -45,6 +45,12 @@ def test_every_command_has_an_example_that_is_one(words: tuple[str, ...], capsys
     assert shlex.split(line.split(" Options")[0])
 
 
+@pytest.mark.parametrize("words", [(), ("library",), ("archive",), ("results",)], ids=" ".join)
+def test_the_list_of_commands_has_whole_sentences(words: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    listed = gaitsim(capsys, *words, "--help").out.partition("Commands:")[2].strip().splitlines()
+    assert listed and [line for line in listed if not line.endswith(".") or line.endswith("...")] == []
+
+
 HEAVY = ("numpy", "mujoco", "numba", "matplotlib", "distributed", "pydantic", "xarray", "rich")
 
 
