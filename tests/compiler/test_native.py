@@ -22,11 +22,11 @@ DEAD_END = "so nothing is kept and each run compiles again; set GAITSIM_CACHE to
 @pytest.fixture(autouse=True)
 def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Path]:
     """A cache of this test's own, in a process that has said nothing yet."""
-    said = list(cache._told())
-    cache._told().clear()
+    said = list(cache._warnings())
+    cache._warnings().clear()
     monkeypatch.setenv("GAITSIM_CACHE", str(tmp_path / "cache"))
     yield tmp_path / "cache"
-    cache._told()[:] = said
+    cache._warnings()[:] = said
 
 
 def thrice(number: float) -> float:
