@@ -120,7 +120,6 @@ class NativeLoop:
         tables = self._tables(values)
         code, addresses = self._bound()
         step = np.zeros(1, dtype=np.int64)
-        # These references keep the arrays alive while a thread computes with them.
         held = {
             "parameters": tables.p,
             "base": tables.base,
@@ -139,17 +138,16 @@ class NativeLoop:
             "reached": step,
             "stages": self._stage_addresses(),
         }
-        given = {word: array.ctypes.data_as(ctypes.c_void_p) for word, array in held.items()}
-        given["record"] = None if record is None else record.ctypes.data_as(ctypes.c_void_p)
-        numbers = {"mask": len(tables.past) - 1, "count": len(tables.places), "first": 0, "steps": steps}
-        given |= numbers | {
-            "dt": self.program.model.simulate.step,
-            "fastest": physics.fastest,
-            "rounds": STARTING_ROUNDS,
-        }
+        dt = self.program.model.simulate.step
+        numbers: dict[str, Any] = {"dt": dt, "fastest": physics.fastest, "rounds": STARTING_ROUNDS}
+        numbers |= {"mask": len(tables.past) - 1, "count": len(tables.places), "first": 0, "steps": steps}
         model, data = physics.model, physics.data
 
         def compute() -> tuple[bool, int]:
+            # The arrays live as long as this function, in whatever thread it runs. An address, unlike a pointer of
+            # ctypes, keeps none of them alive beyond that.
+            given = numbers | {word: array.ctypes.data for word, array in held.items()}
+            given |= {"record": None if record is None else record.ctypes.data}
             if code.start(given):
                 return False, native.SUSPECT
             return True, code.run(given | {"model": model._address, "data": data._address})
