@@ -148,7 +148,7 @@ def test_a_strange_worker_that_comes_late_ends_the_search_and_loses_nothing(
 ) -> None:
     servers.worker()
     servers.wait_for_workers(1)
-    words = ("--generations", "4", "--set", "simulate.duration=200s")
+    words = ("--generations", "4", "--set", "simulate.duration=4000s")
     process = study.start("optimize", "spec.yaml", *words, *servers.words)
     study.wait_for(3, process)
     other = servers.worker("--no-nanny", PYTHONPATH=changed_gaitsim(tmp_path / "other"))
