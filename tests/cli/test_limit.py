@@ -19,7 +19,6 @@ from gaitsim.simulation.outcome import Outcome
 
 from .commands import Said, gaitsim
 
-SPECS = Path(__file__).resolve().parents[2] / "specs"
 # After n steps of semi-implicit Euler the stone has fallen by g dt^2 n (n + 1) / 2.
 STONE = """
 gaitsim: 1
@@ -388,13 +387,7 @@ def test_a_variant_starts_at_the_tuned_values_of_its_parent(spec: Path, capsys: 
     assert "tuned" not in gaitsim(capsys, "run", "high.yaml", "--no-save", "--start").err
 
 
-@pytest.mark.parametrize(
-    "changed",
-    [
-        "{value: 2 kg, tune: [0.5 kg, 5 kg]}",
-        "{value: 1 kg, tune: [0.5 kg, 4 kg]}",
-    ],
-)
+@pytest.mark.parametrize("changed", ["{value: 2 kg, tune: [0.5 kg, 5 kg]}", "{value: 1 kg, tune: [0.5 kg, 4 kg]}"])
 def test_a_variant_that_tunes_otherwise_starts_anew(
     spec: Path, changed: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -404,37 +397,3 @@ def test_a_variant_that_tunes_otherwise_starts_anew(
         f"gaitsim: 1\nextends: stone.yaml\nparts: {{stone: {{mass: {changed}}}}}\n", encoding="utf-8"
     )
     assert "tuned" not in gaitsim(capsys, "run", "other.yaml", "--no-save").err
-
-
-@pytest.mark.slow
-def test_the_perturbed_walker_is_the_walker_until_it_is_perturbed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    names = ("walking_geyer2010.yaml", "walking_geyer2010_perturbed.yaml")
-    plain, perturbed = (
-        json.loads(gaitsim(capsys, "run", str(SPECS / name), "--start", "--no-save", "--json").out) for name in names
-    )
-    assert perturbed["steps"] == plain["steps"] > 100
-    assert perturbed["metrics"] == plain["metrics"]
-
-
-@pytest.mark.parametrize(
-    "setting",
-    [
-        "push.strength=300 N",
-        "use_for.terrain.angle=2 deg",
-        "use_for.terrain.rise=-2 cm",
-        "felt_lean.standard_deviation=2 deg",
-    ],
-)
-def test_each_perturbation_is_one_setting(
-    setting: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.chdir(tmp_path)
-    early = ["--set", "push.onset=0.1 s", "--set", "use_for.terrain.first=5 cm", "--set", "simulate.duration=0.6 s"]
-    words = [str(SPECS / "walking_geyer2010_perturbed.yaml"), *early, "--no-save", "--json", "--start"]
-    still, moved = (
-        json.loads(gaitsim(capsys, "run", *words, *more).out)["metrics"] for more in ((), ("--set", setting))
-    )
-    assert moved["speed.distance"] != still["speed.distance"]
