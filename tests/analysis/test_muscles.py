@@ -1,13 +1,16 @@
 from __future__ import annotations
 
+import warnings
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from gaitsim.analysis.muscles.figures import Muscle, muscle_figures, muscles, net_work, work_done
+from gaitsim.analysis.muscles.overview import overview_figures
 from tests.analysis.replays import command, cut, of_spec
-from tests.simulation.models import ROOT
+from tests.analysis.walking import walk
+from tests.simulation.models import ROOT, model
 
 
 def test_the_work_of_an_ellipse_is_its_area() -> None:
@@ -99,6 +102,27 @@ def test_one_muscle_is_drawn_if_asked_for(tmp_path: Path) -> None:
     assert command("analyze", spec, *words) == 0
     made = {path.name for path in (tmp_path / "figures").iterdir()}
     assert made == {"muscle_extensor.png", "work_loop_extensor.png"}
+
+
+@pytest.mark.parametrize("width", [6.0, 3.9])  # inches: on a page, and on a telephone
+def test_excitations_have_one_legend_that_leaves_the_panels_their_room(width: float) -> None:
+    runner = model(ROOT / "specs" / "running_wang2012.yaml")
+    figure = next(d.figure for d in overview_figures(walk({}, runner)) if d.name == "excitations_l")
+    figure.set_size_inches(width, figure.get_figheight())
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        figure.draw_without_rendering()
+    (legend,) = figure.legends
+    assert legend.get_window_extent().x0 > 0
+    looks = {}
+    for axes in figure.axes:
+        assert axes.get_legend() is None
+        assert axes.get_position().width > 0.3
+        looks |= {str(line.get_label()): (line.get_color(), line.get_linestyle()) for line in axes.lines}
+    texts = [text.get_text() for text in legend.get_texts()]
+    shown = [(line.get_color(), line.get_linestyle()) for line in legend.get_lines()]
+    assert dict(zip(texts, shown, strict=True)) == looks
+    assert {"force", "swing bias", "initiation command"} < looks.keys()
 
 
 def test_a_model_without_muscles_has_no_such_figures() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -60,10 +61,14 @@ def legend(axes: Axes, **options: Any) -> None:
 
 def above(axes: Axes) -> None:
     """Add a legend above a panel, where it covers nothing, with as many columns as its longest label allows."""
-    handles, labels = axes.get_legend_handles_labels()
-    longest = max((len(label) for label in labels), default=1)
-    columns = max(1, min(len(handles), _LEGEND_LETTERS // (longest + 6)))
-    legend(axes, loc="lower left", bbox_to_anchor=(0, 1), ncols=columns, frameon=False, borderaxespad=0.1)
+    _, labels = axes.get_legend_handles_labels()
+    legend(axes, loc="lower left", bbox_to_anchor=(0, 1), ncols=columns_of(labels), frameon=False, borderaxespad=0.1)
+
+
+def columns_of(labels: Collection[str]) -> int:
+    """The columns of a legend as wide as the figure, as many as the longest label allows."""
+    longest = max(map(len, labels), default=1)
+    return max(1, min(len(labels), _LEGEND_LETTERS // (longest + 6)))
 
 
 def whole_numbers(axes: Axes) -> None:

@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from gaitsim.analysis.drawings.drawing import Drawing
-from gaitsim.analysis.drawings.style import FONT, GREY, labelled, look, panels
+from gaitsim.analysis.drawings.style import FONT, GREY, columns_of, labelled, look, panels
 from gaitsim.analysis.gait.legs import SIDES, side_of, unsided
 from gaitsim.analysis.replays.cycles import Floats, sent, shade_stance, shown_part, thinned
 from gaitsim.analysis.replays.replay import Replay
+from gaitsim.model import Connection
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -20,14 +22,7 @@ if TYPE_CHECKING:
     _Draw = Callable[[Axes, Replay, Replay, str], None]
 
 _COLUMNS = 2
-_ROW = 0.17  # of a panel's height, for one row of its legend
-_TIGHT: dict[str, Any] = {
-    "frameon": False,
-    "borderpad": 0,
-    "labelspacing": 0.15,
-    "columnspacing": 1,
-    "handlelength": 1.2,
-}
+_ROW = 0.17  # inches: a row of the legend
 _LARGEST = 1.5  # of what is drawn of an excitation, either way
 
 
@@ -38,9 +33,8 @@ def overview_figures(replay: Replay) -> list[Drawing]:
         of = f" of the {SIDES[side]} leg" if side else ""
         end = f"_{side}" if side else ""
         found.append(_overview(replay, muscles, f"muscles{end}", f"Muscles{of}", _SIGNALS, _draw_signals))
-        found.append(
-            _overview(replay, muscles, f"excitations{end}", f"What excites the muscles{of}", _SENT, _draw_sent)
-        )
+        draw = partial(_draw_sent, _sender_looks(replay, muscles))
+        found.append(_overview(replay, muscles, f"excitations{end}", f"What excites the muscles{of}", _SENT, draw))
     return found
 
 
@@ -49,8 +43,8 @@ _SIGNALS = (
     "all plain numbers)"
 )
 _SENT = (
-    f"what arrives at each muscle's excitation, sender by sender, drawn from {-_LARGEST:g} to {_LARGEST:g}; the muscle "
-    "limits their sum"
+    "what arrives at each muscle's excitation, sender by sender (without the muscle's name), drawn from "
+    f"{-_LARGEST:g} to {_LARGEST:g}; the muscle limits their sum"
 )
 
 
@@ -88,17 +82,16 @@ def _overview(replay: Replay, muscles: list[str], name: str, title: str, what: s
 
 
 def _name_lines(figure: Figure, axes: list[Axes]) -> None:
-    """Add one legend above all panels if their lines have the same names, else one in each."""
-    named = [panel.get_legend_handles_labels() for panel in axes]
-    if all(labels == named[0][1] for _, labels in named):
-        figure.legend(*named[0], loc="outside upper right", ncols=3, frameon=False, fontsize=FONT - 1)
-        return
-    for panel, (handles, labels) in zip(axes, named, strict=True):
-        if labels:
-            low, high = panel.get_ylim()
-            rows = -(-len(labels) // 2)
-            panel.set_ylim(low, high + _ROW * rows * (high - low))
-            panel.legend(handles, labels, fontsize=FONT - 3, ncols=2, loc="upper right", **_TIGHT)
+    """Add one legend for all panels, above them. A line has the same look in each."""
+    lines = {}
+    for panel in axes:
+        handles, labels = panel.get_legend_handles_labels()
+        lines.update({label: handle for label, handle in zip(labels, handles, strict=True) if label not in lines})
+    if lines:
+        columns = columns_of(lines)
+        figure.set_figheight(figure.get_figheight() + _ROW * -(-len(lines) // columns))
+        options: dict[str, Any] = {"ncols": columns, "frameon": False, "fontsize": FONT - 1}
+        figure.legend(list(lines.values()), list(lines), loc="outside upper right", **options)
 
 
 def _draw_signals(panel: Axes, _: Replay, part: Replay, muscle: str) -> None:
@@ -108,10 +101,30 @@ def _draw_signals(panel: Axes, _: Replay, part: Replay, muscle: str) -> None:
     panel.axhline(1, color=GREY, linewidth=0.8, linestyle=":")
 
 
-def _draw_sent(panel: Axes, replay: Replay, part: Replay, muscle: str) -> None:
-    kept = (replay.times >= part.times[0]) & (replay.times <= part.times[-1])
-    model = replay.model
-    for number, connection in enumerate(c for c in model.connections if c.target == f"{muscle}.excitation"):
-        values: Floats = np.clip(sent(replay, connection)[kept], -_LARGEST, _LARGEST)
-        sender = unsided(connection.sender.rpartition(".")[0])
-        panel.plot(*thinned(part.times, values, 600), linewidth=1.1, label=sender.replace("_", " "), **look(number))
+def _sender_looks(replay: Replay, muscles: Sequence[str]) -> dict[str, dict[str, Any]]:
+    """The look of the line of each sender, by the name that the figure gives it."""
+    names = dict.fromkeys(name for muscle in muscles for _, name in _senders(replay, muscle))
+    return {name: look(number) for number, name in enumerate(names)}
+
+
+def _senders(replay: Replay, muscle: str) -> list[tuple[Connection, str]]:
+    """The connections to the excitation of a muscle, and the names of their senders."""
+    connections = [c for c in replay.model.connections if c.target == f"{muscle}.excitation"]
+    parts = [unsided(connection.sender.rpartition(".")[0]).replace("_", " ") for connection in connections]
+    short = [_short(part, unsided(muscle).replace("_", " ")) for part in parts]
+    return list(zip(connections, short if len(set(short)) == len(set(parts)) else parts, strict=True))
+
+
+def _short(sender: str, muscle: str) -> str:
+    """The name of a sender without the name of its muscle: swing bias instead of gluteus swing bias."""
+    words = sender.rpartition(".")[2].split(" ")
+    while len(words) > 1 and words[0] in muscle.split(" "):
+        del words[0]
+    return " ".join(words)
+
+
+def _draw_sent(looks: Mapping[str, dict[str, Any]], panel: Axes, replay: Replay, part: Replay, muscle: str) -> None:
+    inside = (replay.times >= part.times[0]) & (replay.times <= part.times[-1])
+    for connection, name in _senders(replay, muscle):
+        values: Floats = np.clip(sent(replay, connection)[inside], -_LARGEST, _LARGEST)
+        panel.plot(*thinned(part.times, values, 600), linewidth=1.1, label=name, **looks[name])
