@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from gaitsim.analysis.drawings.style import PALETTE, shown_unit
+from gaitsim.analysis.drawings.style import PALETTE, is_constant, place_exponent, shown_unit, vertical_limits
 from gaitsim.animation.lettering import Words, write
 from gaitsim.model import Signal
 from gaitsim.simulation.outcome import Trajectory
@@ -24,6 +24,7 @@ Pixels = NDArray[np.uint8]
 _DPI = 100
 _PAGE = 6.0  # s of motion that one page of scopes may show
 _POINTS = 4000  # of a line on a page: more than it has pixels
+_DECIMALS = 6  # of a number beside a plot; smaller ones have a power of ten
 _FAINT = 0.22
 _CURSOR = (200, 30, 30)
 
@@ -82,13 +83,22 @@ class Panel:
             words.append(Words(text, left, middle, size, "lm", bold=True))
         return words
 
+    def _extremes(self, signal: Signal) -> list[str]:
+        """The texts of the smallest and the largest value of a signal."""
+        values, span = self._inside(self.trajectory[signal.address]), self._spans[signal.address]
+        return [_shown(signal, float(value), span) for value in (np.min(values), np.max(values))]
+
     @cached_property
     def _spans(self) -> dict[str, float]:
-        """The range of each signal."""
-        addresses = [signal.address for signal in self.signals]
-        return {address: float(np.ptp(self._kept(self.trajectory[address]))) for address in addresses}
+        """The range of each signal; 0 if it is constant but for rounding error."""
+        found = {}
+        for signal in self.signals:
+            values = self._inside(self.trajectory[signal.address])
+            low, high = float(np.min(values)), float(np.max(values))
+            found[signal.address] = 0.0 if is_constant(low, high) else high - low
+        return found
 
-    def _kept(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    def _inside(self, values: NDArray[np.float64]) -> NDArray[np.float64]:
         times = self.trajectory.times
         return values[(times >= self.begin - 1e-9) & (times <= self.end + 1e-9)]
 
@@ -125,9 +135,10 @@ class Panel:
         font = 9.5 * self.scale
         grid = figure.subplots(len(self.signals), 1, sharex=True, squeeze=False)
         line, em = font * _DPI / 72 / self.height, font * _DPI / 72 / self.width
-        # Names of levels are at the left of a plot and, in bold, at its right.
-        letters = max((len(name) for signal in self.signals for name in signal.levels), default=0)
-        left, right = max(5.2, 0.6 * letters + 1.2) * em, max(8.2, 0.75 * letters + 1.2) * em
+        # Names of levels are at the left of a plot. They, or else values, are at its right in bold.
+        levels = max((len(name) for signal in self.signals for name in signal.levels), default=0)
+        letters = max(levels, *(len(text) for signal in self.signals for text in self._extremes(signal)))
+        left, right = max(5.2, 0.6 * levels + 1.2) * em, max(8.2, 0.75 * letters + 1.2) * em
         figure.subplots_adjust(
             left=left, right=1 - right, top=1 - 2.2 * line, bottom=4.0 * line, hspace=self._gap(line)
         )
@@ -137,9 +148,10 @@ class Panel:
         for i, (each, signal) in enumerate(zip(grid[:, 0], self.signals, strict=True)):
             values = self.trajectory[signal.address]
             self._trace(each, times[kept], values[kept], PALETTE[i % len(PALETTE)], signal)
-            each.set_ylim(*_limits(self._kept(values), signal))
+            each.set_ylim(*_limits(self._inside(values), signal))
             each.set_title(f"{signal.address} ({shown_unit(signal.unit)})", loc="left", fontsize=font, pad=0.3 * font)
             each.tick_params(labelsize=0.9 * font, length=0.25 * font)
+            place_exponent(each, 0.9 * font)
             each.spines[["top", "right"]].set_visible(False)
             each.grid(alpha=0.3, linewidth=0.6)
             each.margins(x=0)
@@ -172,14 +184,14 @@ def _limits(values: NDArray[np.float64], signal: Signal) -> tuple[float, float]:
     if signal.levels:
         return -0.1, len(signal.levels) - 0.8
     low, high = float(np.nanmin(values)), float(np.nanmax(values))
-    room = 0.06 * (high - low) or 0.5 * max(abs(high), 1e-6)
-    return low - room, high + room
+    return vertical_limits(low, high, 0.06)
 
 
 def _shown(signal: Signal, value: float, span: float) -> str:
     """A number with its unit and as many decimals as its plot resolves; or the name of a level."""
     if signal.levels:
         return signal.levels[int(value)]
-    decimals = min(6, max(0, 2 - math.floor(math.log10(span)))) if span > 0 else 3
-    text = f"{value:.{decimals}f}".replace("-", "\N{MINUS SIGN}")
+    decimals = max(0, 2 - math.floor(math.log10(span))) if span > 0 else 3
+    text = f"{value:.2e}" if decimals > _DECIMALS else f"{round(value, decimals) + 0.0:.{decimals}f}"  # 0 has no sign
+    text = text.replace("-", "\N{MINUS SIGN}")
     return text if signal.unit == "1" else f"{text} {shown_unit(signal.unit)}"

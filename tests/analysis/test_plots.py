@@ -12,6 +12,7 @@ from gaitsim.analysis.drawings import style
 from gaitsim.analysis.drawings.drawing import Drawing, save
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.signals import plots
+from gaitsim.analysis.signals.motion import motion_figures
 from gaitsim.analysis.signals.pattern import NoSuchSignal
 from gaitsim.analysis.signals.return_map_figure import TooFewEvents, return_map
 from gaitsim.analysis.signals.selection import runs_without
@@ -182,6 +183,14 @@ def test_the_overview_of_any_model(swing: Replay, braked: Replay) -> None:
     motion, control = plots.signal_overlays([swing, braked])[:2]
     assert [name for name, _ in drawn(motion)] == ["pivot.angle\n(rad)"]
     assert (motion.name, control.name) == ("motion", "control")
+
+
+def test_rounding_errors_are_not_magnified() -> None:
+    still = replay(("initial.pivot.angle", "0 deg"))
+    (drawing,) = plots.against_time([still], "pivot.angle")
+    (overview, *_) = motion_figures(still)
+    for axes in (drawing.figure.axes[0], overview.figure.axes[0]):
+        assert axes.get_ylim() == pytest.approx((-1, 1))
 
 
 def test_figures_are_written_whole_or_not_at_all(swing: Replay, tmp_path: Path) -> None:

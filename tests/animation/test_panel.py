@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from gaitsim.analysis.signals.pattern import NoSuchSignal
@@ -72,6 +74,41 @@ def test_values_have_as_many_decimals_as_can_be_told_apart_and_states_have_names
     assert _shown(Signal("a", "1", ""), 0.5, 1.0) == "0.50"
     assert _shown(FORCE, 2.0, 0.0) == "2.000 N"
     assert _shown(LEVEL, 1.0, 1.0) == "stance"
+    assert _shown(FORCE, -1e-16, 0.0) == "0.000 N"
+    assert _shown(FORCE, 4.23456e-8, 6e-7) == "4.23e−08 N"
+
+
+def small_signals(unit: str, *signals: NDArray[np.float64]) -> Panel:
+    """A scope of each signal, over 4 s."""
+    names = tuple(f"a.signal_{number}" for number in range(len(signals)))
+    trajectory = Trajectory(np.linspace(0, 4, 401), names, (unit,) * len(names), np.stack(signals, axis=1))
+    return Panel(trajectory, [Signal(name, unit, "A signal.") for name in names], 740, 400, 0.0, 4.0)
+
+
+def test_rounding_errors_are_not_magnified() -> None:
+    wave = np.sin(np.linspace(0, 4, 401))
+    panel = small_signals("N", 0 * wave, 1e-15 * wave, 40 + 1e-6 * wave, 3e-7 * wave)
+    zero, noise, constant, small = panel._axes(Figure(), 0.0, 4.0)
+    assert zero.get_ylim() == (-1, 1)
+    assert noise.get_ylim() == pytest.approx((-1, 1))
+    assert constant.get_ylim() == pytest.approx((20, 60), rel=1e-6)
+    assert np.ptp(small.get_ylim()) < 1e-6
+
+
+def test_a_power_of_ten_covers_no_title() -> None:
+    wave = np.sin(np.linspace(0, 4, 401))
+    figure = Figure()
+    FigureCanvasAgg(figure)
+    for axes in small_signals("N", 3e-7 * wave, 4e7 * wave)._axes(figure, 0.0, 4.0):
+        figure.draw_without_rendering()
+        exponent = axes.yaxis.get_offset_text()
+        assert exponent.get_text()
+        assert exponent.get_window_extent().x1 <= axes.get_window_extent().x0 + 1
+
+
+def test_numbers_with_long_units_stay_in_the_picture() -> None:
+    picture = small_signals("N m/rad", 3e-7 * np.sin(np.linspace(0, 4, 401))).picture(200)
+    assert (picture[:, -5:] == 255).all()
 
 
 def test_long_names_of_levels_stay_in_the_picture() -> None:

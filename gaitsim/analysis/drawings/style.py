@@ -17,6 +17,8 @@ FONT = 9  # points
 COLUMN = 6.0  # inches: a text column on a page, and on a screen at 100 %
 DPI = 150
 _LEGEND_LETTERS = 56  # in one row, also of a figure drawn for a telephone
+_ZERO = 1e-9  # in the unit of a signal: what is smaller counts as zero
+_ROUNDING = 1e-6  # of the largest value: a signal that varies less counts as constant
 _MEANT = {"N m": "moment", "J": "energy"}  # one dimension, two quantities
 
 
@@ -43,10 +45,51 @@ def panels(rows: int = 1, columns: int = 1, height: float = 2.2, share: bool = F
         axes.grid(alpha=0.3, linewidth=0.6)
         axes.spines[["top", "right"]].set_visible(False)
         axes.tick_params(labelsize=FONT - 1)
+        place_exponent(axes, FONT - 1)
         axes.title.set_size(FONT)
         axes.xaxis.label.set_size(FONT)
         axes.yaxis.label.set_size(FONT)
     return made, found
+
+
+def place_exponent(axes: Axes, size: float) -> None:
+    """Place the power of ten of a vertical axis above its numbers, left of where a title or a legend begins.
+
+    Args:
+        axes: The panel.
+        size: The size of its letters, in points.
+    """
+    text = axes.yaxis.get_offset_text()
+    text.set_fontsize(size)
+    text.set_horizontalalignment("right")
+
+
+def is_constant(low: float, high: float) -> bool:
+    """Whether what lies between two values is no more than rounding error."""
+    return high - low <= max(_ZERO, _ROUNDING * max(abs(low), abs(high)))
+
+
+def vertical_limits(low: float, high: float, margin: float = 0.05) -> tuple[float, float]:
+    """The ends of a vertical axis that shows a signal and does not magnify its rounding error.
+
+    Args:
+        low: The smallest value of the signal.
+        high: The largest value of the signal.
+        margin: The empty part above and below, relative to the range of the signal.
+    """
+    if not is_constant(low, high):
+        room = margin * (high - low)
+    else:
+        largest = max(abs(low), abs(high))
+        room = 0.5 * largest if largest > _ZERO else 1.0
+    return low - room, high + room
+
+
+def limit_vertical(axes: Axes) -> None:
+    """Set the ends of the vertical axis of a panel whose lines are drawn, see `vertical_limits`."""
+    low, high = axes.dataLim.intervaly
+    if is_constant(low, high):
+        axes.set_ylim(*vertical_limits(low, high))
 
 
 def look(number: int) -> dict[str, Any]:

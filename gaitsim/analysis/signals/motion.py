@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from gaitsim.analysis.drawings.drawing import Drawing
-from gaitsim.analysis.drawings.style import above, labelled, panels, quantity
+from gaitsim.analysis.drawings.style import above, labelled, limit_vertical, panels, quantity
 from gaitsim.analysis.gait.legs import on_side, side_of
 from gaitsim.analysis.replays.cycles import shade_stance, shown_part, thinned
 from gaitsim.analysis.replays.replay import Replay
@@ -60,6 +60,7 @@ def _figures(replay: Replay, name: str, title: str, signals: Signals) -> list[Dr
                 panel.plot(*thinned(part.times, factor * part.trajectory[address]), label=address)
             panel.set_ylabel(labelled(quantity(group[0][1]), unit))
             shaded = shade_stance(panel, part, group[0][0] if side_of(group[0][0]) else leg) or shaded
+            limit_vertical(panel)
             above(panel)
             panel.margins(x=0)
         axes[-1].set_xlabel(labelled("time", "s"))

@@ -61,6 +61,8 @@ def name_vertical(axes: Axes, replays: Sequence[Replay], group: Sequence[Signal]
     axes.set_ylabel("\n".join(_wrapped(name)) + f"\n({style.shown_unit(first.unit)})", fontsize=style.FONT)
     if first.levels:
         axes.set_yticks(range(len(first.levels)), first.levels)
+    else:
+        style.limit_vertical(axes)
     if len(group) > 1 and len(replays) == 1:
         handles, labels = axes.get_legend_handles_labels()
         short = [label.removeprefix(_owner(group)) for label in labels]
