@@ -6,10 +6,11 @@ makes one function of the component's functions. numba is imported only when a k
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
 import re
 import sys
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cache
 from types import FunctionType, ModuleType
@@ -24,6 +25,7 @@ from gaitsim.errors import Fault, InvalidComponent, Mark
 START, OUTPUT, UPDATE, RESET = 0, 1, 2, 3
 STAGES = {"start": START, "output": OUTPUT, "update": UPDATE, "reset": RESET}
 
+_C_FUNCTION = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_double)
 _OPTIONS = {"error_model": "numpy", "boundscheck": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 _FOOTER = """
 
@@ -108,6 +110,11 @@ def address_of(component: Primitive) -> int:
         InvalidComponent: The component cannot become native code.
     """
     return _alone(component).address(f"{kernel_of(component).name}.alone")
+
+
+def native_function(component: Primitive) -> Callable[..., int]:
+    """A component's native function alone, as one of Python; see `address_of`."""
+    return _C_FUNCTION(address_of(component))
 
 
 @cache

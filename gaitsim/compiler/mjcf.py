@@ -12,8 +12,9 @@ import mujoco
 
 from gaitsim.compiler.chains import own_stages
 from gaitsim.compiler.mechanics.making import Made
-from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Relief, Touching, world_frames
+from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Lift, Point, Relief, Touching, world_frames
 from gaitsim.compiler.mechanics.space import check_friction, check_grounds, check_inertias, check_sides
+from gaitsim.compiler.mechanics.standing import check_loads
 from gaitsim.compiler.mechanics.ties import Tie
 from gaitsim.compiler.mechanics.tree import Branch, branches, check_axes
 from gaitsim.compiler.mechanics.verbs import Mechanics, beside_frames, numbers_of
@@ -49,7 +50,8 @@ class Assembly:
     """A MuJoCo model, and the ties between it and the ports of parts as pairs (index of the part, tie).
 
     Resets are numbers that events set. Constants are numbers that parts read from the compiled model; they are kept in
-    MuJoCo's userdata. Drawings are shown beside the bodies in films. A relief is the height of uneven ground.
+    MuJoCo's userdata. Drawings are shown beside the bodies in films. Carried are the parts that touch the ground. A
+    relief is the height of uneven ground.
     """
 
     spec: Any
@@ -60,8 +62,9 @@ class Assembly:
     constants: tuple[float, ...]
     drawings: tuple[tuple[int, DrawnLine | DrawnForce], ...]
     touching: tuple[Touching, ...]
+    carried: tuple[int, ...]
     relief: Relief | None
-    lifts: tuple[str, ...]
+    lifts: tuple[Lift, ...]
     begins: tuple[tuple[str, float, float], ...]
 
     @property
@@ -151,6 +154,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
     check_inertias(model, spec, made)
     check_friction(model, spec, made)
     check_grounds(model, made)
+    check_loads(model, values, made)
     compiled = _compiled(spec, {str(part.mark): part for part in model.parts})
     spec.option.integrator = compiled.opt.integrator = _integrator(model, compiled)
     compiled.opt.disableflags |= _unused_stages(compiled)
@@ -163,6 +167,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
         tuple(of(compiled) for of in made.constants),
         tuple(made.drawings),
         tuple(made.touching),
+        tuple(made.carried),
         next(iter(made.reliefs.values()), None),
         tuple(made.lifts),
         tuple(made.begins),

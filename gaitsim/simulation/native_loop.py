@@ -75,7 +75,7 @@ class NativeLoop:
     _tied: tuple[Assembly, _Native, Integers] | None = None
 
     def __post_init__(self) -> None:
-        self.physics = Physics(self.program)
+        self.physics = Physics(self.program, native=True)
 
     def prepare(self) -> None:
         """Compile or load all native code, and make the checks that need the posed model.
@@ -155,7 +155,7 @@ class NativeLoop:
         try:
             started, status = interruptible(compute)
         except KeyboardInterrupt:
-            self.physics = Physics(self.program)  # a thread still computes with the old one
+            self.physics = Physics(self.program, native=True)  # a thread still computes with the old one
             raise
         return _Reached(started, status, int(step[0]), tables)
 

@@ -16,6 +16,7 @@ from gaitsim.compiler.program import Program
 from gaitsim.errors import Fault, InvalidSpec
 from gaitsim.simulation.failure import of_mechanics, of_runaway
 from gaitsim.simulation.initial_height import stand
+from gaitsim.simulation.initial_load import Ground
 from gaitsim.simulation.projection import close_loops
 
 # A joint that is faster than both has diverged. People's joints and limbs stay below 100 rad/s and 100 m/s, and the
@@ -26,11 +27,17 @@ _FARTHEST = 0.1  # rad or m in one step
 
 @dataclass
 class Physics:
-    """The mechanics of one program, posed for each candidate."""
+    """The mechanics of one program, posed for each candidate.
+
+    Attributes:
+        native: Whether parts that are needed for a pose are computed in native code; see `simulation/initial_load.py`.
+    """
 
     program: Program
+    native: bool = False
     _built_for: tuple[float, ...] | None = None
     _assembly: Assembly | None = field(default=None, repr=False)
+    _ground: Ground | None = field(default=None, repr=False)
     data: Any = None
     stages: Stages | None = field(default=None, repr=False)
 
@@ -42,6 +49,13 @@ class Physics:
     @property
     def model(self) -> Any:
         return self.assembly.model
+
+    @property
+    def ground(self) -> Ground:
+        """What the ground carries at the start."""
+        if self._ground is None:
+            self._ground = Ground(self.program, self.assembly, self.data, self.native)
+        return self._ground
 
     @cached_property
     def _mechanical(self) -> tuple[int, ...]:
@@ -61,6 +75,7 @@ class Physics:
 
         Raises:
             SimulationFailed: No pose has these coordinates and closed loops.
+            InvalidSpec: No height has the load with which a joint is to start.
         """
         key = tuple(values[i] for i in self._mechanical)
         if self._assembly is None or key != self._built_for:
@@ -68,6 +83,7 @@ class Physics:
             self._built_for = key
             self.data = mujoco.MjData(self.model)
             self.stages = Stages.of(self.model, self.data) if self._assembly.own_stages else None
+            self._ground = None
         mujoco.mj_resetData(self.model, self.data)
         # MuJoCo would print and log a warning the first time; the loops make their own checks.
         self.data.warning.number[:] = 1
@@ -84,10 +100,12 @@ class Physics:
                 getattr(self.data, array)[place] = values[number]
                 given[array].append(place)
         close_loops(self.model, self.data, given["qpos"], given["qvel"])
-        for name in self.assembly.lifts:
-            place = int(self.model.joint(name).qposadr[0])
+        for lift in self.assembly.lifts:
+            place = int(self.model.joint(lift.joint).qposadr[0])
             if place not in given["qpos"]:
                 stand(self.model, self.data, place, self.assembly.touching, self.assembly.relief)
+                if lift.load > 0:
+                    self.ground.carry(lift, values, self.initial_states(values))
         mujoco.mj_forward(self.model, self.data)
 
     def look(self) -> None:

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import ctypes
 from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any
 
 import numpy as np
 
-from gaitsim.compiler.kernel import STAGES, address_of
+from gaitsim.compiler.kernel import STAGES, native_function
 from gaitsim.compiler.program import Floats
 from gaitsim.components.load import function_of
 from gaitsim.components.primitive import Primitive
@@ -17,8 +16,6 @@ from gaitsim.errors import did_you_mean
 from gaitsim.simulation.run import Mode
 from gaitsim.simulation.view import View
 from gaitsim.units import parse_unit
-
-_C_FUNCTION = ctypes.CFUNCTYPE(ctypes.c_int64, ctypes.c_int64, *[ctypes.c_void_p] * 4, ctypes.c_double)
 
 
 class Trial:
@@ -104,7 +101,7 @@ class Trial:
     @cached_property
     def _native(self) -> tuple[Callable[..., int], list[int]]:
         """The native function and the addresses of the tables, which stay where they are."""
-        return _C_FUNCTION(address_of(self.kind)), [table.ctypes.data for table in self.arrays]
+        return native_function(self.kind), [table.ctypes.data for table in self.arrays]
 
     @property
     def stages(self) -> list[str]:

@@ -1,4 +1,4 @@
-from gaitsim.component import Attachment, Component, Input, Option, Output
+from gaitsim.component import Attachment, Component, Input, Option, Output, Parameter, Refused
 
 
 class Planar(Component):
@@ -15,6 +15,13 @@ class Planar(Component):
         choices=("standing", "free"),
         default="standing",
     )
+    load = Parameter(
+        "1",
+        "Share of the body weight that the ground carries at the start, instead of the first touch.",
+        default=0,
+        bounds=(0, 10),
+        source="definition: the first touch",
+    )
     forward_force = Input("N", "Force on the child's frame, forwards.", sums=True)
     upward_force = Input("N", "Force on the child's frame, upwards.", sums=True)
     moment = Input("N m", "Moment that leans the child forwards.", sums=True)
@@ -30,7 +37,11 @@ class Planar(Component):
         forwards = mj.slide(axis=(1, 0, 0), suffix="x")
         upwards = mj.slide(axis=(0, 0, 1), suffix="z")
         if p.pose == "standing":
-            mj.stands_on(upwards)
+            mj.stands_on(upwards, load=p.load)
+        elif p.load > 0:
+            raise Refused(
+                f"load is {p.load:g}, but pose: free puts nothing on the ground; choose standing, or remove load"
+            )
         leaning = mj.hinge(axis=(0, 1, 0), suffix="pitch")
         mj.read("x", forwards, "qpos")
         mj.read("z", upwards, "qpos")

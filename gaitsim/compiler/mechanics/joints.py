@@ -8,7 +8,7 @@ from typing import Any
 import mujoco
 
 from gaitsim.compiler.mechanics.making import Making
-from gaitsim.compiler.mechanics.places import Vector
+from gaitsim.compiler.mechanics.places import Lift, Vector
 from gaitsim.compiler.mechanics.ties import Element
 
 
@@ -54,9 +54,15 @@ class Joints(Making):
         """Set the coordinate and velocity with which a joint starts, in SI, unless `initial:` sets them."""
         self.made.begins.append((joint.name, float(position), float(velocity)))
 
-    def stands_on(self, lift: Element) -> None:
-        """Let this vertical joint start with the lowest contact on the ground, unless `initial:` sets it."""
-        self.made.lifts.append(lift.name)
+    def stands_on(self, lift: Element, load: float = 0.0) -> None:
+        """Let this vertical joint start with the lowest contact on the ground, unless `initial:` sets it.
+
+        Args:
+            lift: The joint.
+            load: The share of the body weight that the ground then carries, as the sum of the outputs `load` of all
+                contacts. With 0, the lowest contact just touches the ground.
+        """
+        self.made.lifts.append(Lift(self.index, lift.name, float(load)))
 
     def _joint(self, kind: Any, axis: Vector, suffix: str, damping: float) -> Element:
         child = self.attached("child")

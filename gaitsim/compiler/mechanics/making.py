@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Point, Relief, Touching, Vector
+from gaitsim.compiler.mechanics.places import DrawnForce, DrawnLine, Frames, Lift, Point, Relief, Touching, Vector
 from gaitsim.compiler.mechanics.ties import Tie
 from gaitsim.component import Refused
 from gaitsim.model import Part
@@ -29,7 +29,7 @@ class Made:
     later: list[Callable[[], None]] = field(default_factory=list)  # what is made once all parts were built
     collided: list[int] = field(default_factory=list)  # parts that MuJoCo keeps out of the ground
     pushed: dict[int, list[Vector]] = field(default_factory=dict)  # axes along which parts push
-    lifts: list[str] = field(default_factory=list)
+    lifts: list[Lift] = field(default_factory=list)
     begins: list[tuple[str, float, float]] = field(default_factory=list)
     agreed: dict[str, tuple[str, float]] = field(default_factory=dict)  # what one part said first, and how much
 

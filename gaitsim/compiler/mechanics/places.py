@@ -37,6 +37,21 @@ class Touching:
 
 
 @dataclass(frozen=True)
+class Lift:
+    """A vertical joint that starts where the ground carries a load.
+
+    Attributes:
+        part: The index of its part.
+        joint: Its name in MuJoCo.
+        load: The load in body weights; with 0, the lowest contact just touches the ground.
+    """
+
+    part: int
+    joint: str
+    load: float
+
+
+@dataclass(frozen=True)
 class Relief:
     """Ground whose height varies from place to place, above a level plane.
 
