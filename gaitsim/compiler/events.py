@@ -11,7 +11,7 @@ from typing import Any
 
 from gaitsim.compiler.instant import Instant
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES
-from gaitsim.compiler.native import EVENTS, FRAME, HALVINGS, RUNGE_KUTTA
+from gaitsim.compiler.native import EVENTS, FRAME, HALVINGS, RUNGE_KUTTA, STAGE_OF
 from gaitsim.compiler.writer import DOUBLE, FLAG, INTEGER, NOTHING, POINTER, SHORT, Writer
 
 _STEP = {**FRAME, "ties": "pointer", **dict.fromkeys(("model", "data", "qpos", "qvel"), "shared")}
@@ -58,7 +58,8 @@ class Events:
         f.return_if(f.builder.not_(self._call(f, "look", _STEP)), FLAG(0))
         self.of._write(f)
         forward = self.of._external("mj_forwardSkip", NOTHING, [POINTER, POINTER, SHORT, SHORT])
-        f.builder.call(forward, [f.model, f.data, SHORT(AFTER_VELOCITIES), SHORT(0)])
+        with self.of._timed(f, STAGE_OF["mj_forwardSkip"]):
+            f.builder.call(forward, [f.model, f.data, SHORT(AFTER_VELOCITIES), SHORT(0)])
         f.builder.ret(FLAG(1))
 
     # --- one step of Runge-Kutta ---

@@ -35,8 +35,7 @@ class Instant(Functions):
     def _look(self, f: Writer, unless: Callable[[Any, int], None]) -> None:
         """Emit the outputs at the present positions and velocities of MuJoCo."""
         b, plan = f.builder, self.plan
-        with self._timed(f, "first half"):
-            MujocoStep(self).look(f)
+        MujocoStep(self).look(f)
         for i, (place, moves) in enumerate(plan.reads):
             if moves:
                 self._read(f, i, place)

@@ -5,12 +5,14 @@ first.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import groupby
 from typing import TYPE_CHECKING, Any
 
 from llvmlite import ir
 
 from gaitsim.compiler.chains import arguments
 from gaitsim.compiler.mjcf import AFTER_VELOCITIES
+from gaitsim.compiler.native import STAGE_OF
 from gaitsim.compiler.stage_code import ADDRESSES, native_name
 from gaitsim.compiler.writer import INTEGER, NOTHING, POINTER, SHORT, Writer
 
@@ -62,10 +64,16 @@ class MujocoStep:
             self._own(f, "advance")
 
     def _calls(self, f: Writer, *names: str) -> None:
-        for name in names:
-            self._call(f, name)
+        for stage, group in groupby(names, STAGE_OF.__getitem__):
+            with self.of._timed(f, stage):
+                for name in group:
+                    self._emit(f, name)
 
     def _call(self, f: Writer, name: str, *given: Any) -> None:
+        with self.of._timed(f, STAGE_OF[name]):
+            self._emit(f, name, *given)
+
+    def _emit(self, f: Writer, name: str, *given: Any) -> None:
         kinds = [POINTER, POINTER, *(each.type for each in given)]
         f.builder.call(self.of._external(name, NOTHING, kinds), [f.model, f.data, *given])
 

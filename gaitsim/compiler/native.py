@@ -56,10 +56,34 @@ RUN = {
 }
 
 
-# Of code with a stopwatch: its table of ticks, for each part and then for these (the halves are those of MuJoCo's
-# step, with gaitsim's own stages), and the function that tells the tick.
+# The stages to which the functions of MuJoCo belong. "other mechanics" are functions of several stages.
+STAGE_OF = {
+    "mj_kinematics": "kinematics",
+    "mj_comPos": "kinematics",
+    "mj_tendon": "kinematics",
+    "mj_makeM": "inertia",
+    "mj_factorM": "inertia",
+    "mj_transmission": "transmission",
+    "mj_comVel": "velocity",
+    "mj_rne": "velocity",
+    "mj_subtreeVel": "velocity",
+    "mj_fwdVelocity": "velocity",
+    "mj_sensorPos": "sensors",
+    "mj_sensorVel": "sensors",
+    "mj_energyPos": "energy",
+    "mj_energyVel": "energy",
+    "mj_fwdActuation": "actuation",
+    "mj_fwdAcceleration": "acceleration",
+    "mj_solveM": "acceleration",
+    "mj_fwdConstraint": "solver",
+    "mj_Euler": "integration",
+    "mj_implicit": "integration",
+    **dict.fromkeys(("mj_step1", "mj_step2", "mj_forwardSkip", "mj_RungeKutta"), "other mechanics"),
+}
+# Of code with a stopwatch: its table of ticks and then of intervals, for each part and then for these, and the function
+# that tells the tick.
 TICKS, CLOCK = "ticks", "clock"
-TIMED = ("own stages", "first half", "second half", "reading", "steps")
+TIMED = (*dict.fromkeys(STAGE_OF.values()), "own stages", "reading", "steps")
 
 
 def padded(size: int) -> int:

@@ -20,15 +20,15 @@ _COUNTER = "llvm.readsteadycounter" if platform.machine().lower() in ("arm64", "
 
 @dataclass
 class TimedTranslation(Translation):
-    """Adds times to `ticks`: of each part, of both halves of MuJoCo's step, of reading the counter, and of all
-    steps.
+    """Adds times and numbers of intervals to `ticks`: of each part, of each stage of the mechanics, of reading the
+    counter, and of all steps. Within a step no interval contains another one.
 
     `clock` returns the counter to MuJoCo's own timers.
     """
 
     def module(self) -> Any:
         """The whole module, with the table of ticks and the clock."""
-        kind = ir.ArrayType(INTEGER, len(self.plan.pieces) + len(TIMED))
+        kind = ir.ArrayType(INTEGER, 2 * self._slots)
         ticks = ir.GlobalVariable(self.text, kind, TICKS)
         ticks.initializer = ir.Constant(kind, None)
         self.names[TICKS] = ticks
@@ -36,6 +36,10 @@ class TimedTranslation(Translation):
         clock = self._function(CLOCK, DOUBLE, {}, exported=True)
         clock.builder.ret(clock.builder.uitofp(self._now(clock), DOUBLE))
         return super().module()
+
+    @property
+    def _slots(self) -> int:
+        return len(self.plan.pieces) + len(TIMED)
 
     def _one_step(self, f: Writer) -> None:
         with self._timed(f, "steps"):
@@ -49,8 +53,12 @@ class TimedTranslation(Translation):
         yield
         slot = what if isinstance(what, int) else len(self.plan.pieces) + TIMED.index(what)
         taken = f.builder.sub(self._now(f), before)
+        self._add(f, slot, taken)
+        self._add(f, self._slots + slot, INTEGER(1))
+
+    def _add(self, f: Writer, slot: int, number: Any) -> None:
         place = f.builder.gep(self.names[TICKS], [INTEGER(0), INTEGER(slot)], inbounds=True)
-        f.builder.store(f.builder.add(f.builder.load(place), taken), place)
+        f.builder.store(f.builder.add(f.builder.load(place), number), place)
 
     def _now(self, f: Writer) -> Any:
         return f.builder.call(self.names[_COUNTER], [])

@@ -101,8 +101,7 @@ class Translation(Instant):
         for chunk in self._chunks("updates", plan.updates, FRAME, self._update):
             self._end_unless(f, b.call(chunk, frame, attrs=("noinline",)), SUSPECT)
         self._end_unless(f, self._table_is_finite(f, f.states, plan.states), SUSPECT)
-        with self._timed(f, "second half"):
-            self._advance(f)
+        self._advance(f)
         positions, velocities = plan.coordinates
         finite = self._is_finite(f, f.qpos, positions)
         followed = b.call(self.names["bounded"], [f.qvel, INTEGER(velocities), f.fastest], attrs=("noinline",))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import ctypes
 import statistics
 import time
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 import mujoco
@@ -15,7 +15,6 @@ from gaitsim.compiler import machine
 from gaitsim.compiler.native import CLOCK, TICKS, TIMED
 from gaitsim.compiler.plan import plan_of
 from gaitsim.compiler.program import Program
-from gaitsim.compiler.stage_code import STAGES
 from gaitsim.errors import SimulationFailed
 from gaitsim.model import Model
 from gaitsim.simulation.native_loop import NativeLoop
@@ -23,8 +22,9 @@ from gaitsim.simulation.native_loop import NativeLoop
 PAIRS = 5
 LOOP = "delays, checks, loop"
 OWN = "paths, contacts, sum of forces"
-# MuJoCo's timers that do not contain one another: name here, name there.
-_STAGES = {
+OTHER = "other mechanics"
+# MuJoCo's timers that do not contain one another, by stage.
+_TIMERS = {
     "kinematics": "POS_KINEMATICS",
     "inertia": "POS_INERTIA",
     "collision": "POS_COLLISION",
@@ -113,17 +113,14 @@ class _Watch:
 
     def __init__(self, loop: NativeLoop, model: Model) -> None:
         self.loop, self.model, self.steps = loop, model, 0
-        plan, code = plan_of(loop.program, loop.physics.assembly)[0], loop.code
-        self.calls = [sum(call.always for call in plan.calls if call.piece == i) for i in range(len(plan.pieces))]
-        self.own = len(STAGES) if plan.own_stages else 0
-        for i in plan.updates:
-            self.calls[i] += 1
-        numbers = ctypes.c_int64 * (len(plan.pieces) + len(TIMED))
-        self.ticks = np.ctypeslib.as_array(numbers.from_address(code.address(TICKS)))
-        self.clock = ctypes.CFUNCTYPE(ctypes.c_double)(code.address(CLOCK))
+        self.parts = len(plan_of(loop.program, loop.physics.assembly)[0].pieces)
+        numbers = ctypes.c_int64 * (2 * (self.parts + len(TIMED)))
+        address = loop.code.address(TICKS)
+        self.ticks, self.intervals = np.ctypeslib.as_array(numbers.from_address(address)).reshape(2, -1)
+        self.clock = ctypes.CFUNCTYPE(ctypes.c_double)(loop.code.address(CLOCK))
 
     def run(self) -> _Timed:
-        self.ticks[:] = 0
+        self.ticks[:] = self.intervals[:] = 0
         machine.set_clock(self.loop.code.address(CLOCK))
         try:
             before = time.perf_counter(), self.clock()
@@ -135,27 +132,38 @@ class _Watch:
         return _Timed(float(self.ticks[-1]) * tick / self.steps, self._costs(tick))
 
     def _costs(self, tick: float) -> tuple[Cost, ...]:
-        """The time of each part of a step, less the time of reading the stopwatch."""
-        parts, others = np.split(self.ticks * (tick / self.steps), [len(self.calls)])
-        own, first, second, reading, whole = others
-        corrected = np.maximum(parts - reading * np.array(self.calls), 0)
+        """The time of each part and stage in a step, less the time of reading the stopwatch."""
+        seconds, intervals = self.ticks * (tick / self.steps), self.intervals / self.steps
+        *_, reading, whole = seconds
+        rest = whole - seconds[:-1].sum() - reading * intervals[:-1].sum()
+        corrected = np.maximum(seconds - reading * intervals, 0)
         found = [
-            Cost(part.address, part.type.reference, calls, float(seconds))
-            for part, calls, seconds in zip(self.model.parts, self.calls, corrected, strict=True)
+            Cost(part.address, part.type.reference, round(calls), float(taken))
+            for part, calls, taken in zip(self.model.parts, intervals[: self.parts], corrected, strict=False)
         ]
-        timers = self.loop.physics.data.timer
-        stages = [
-            Cost(name, "MuJoCo", 1, float(timers[int(getattr(mujoco.mjtTimer, f"mjTIMER_{word}"))].duration) * tick)
-            for name, word in _STAGES.items()
-        ]
-        stages = [Cost(stage.name, stage.use, 1, stage.seconds / self.steps) for stage in stages]
-        if self.own:
-            stages.append(Cost(OWN, "", self.own, float(own - self.own * reading)))
-        mechanics = first + second - (2 + self.own) * reading
-        stages.append(Cost("other mechanics", "MuJoCo", 2, float(mechanics - sum(stage.seconds for stage in stages))))
-        read = sum(self.calls) + len(TIMED) - 2
-        rest = whole - parts.sum() - first - second - read * reading
-        return (*found, *stages, Cost(LOOP, "", 1, float(rest)))
+        measured = {
+            name: Cost(name, "MuJoCo", round(calls), float(taken))
+            for name, calls, taken in zip(TIMED[:-2], intervals[self.parts :], corrected[self.parts :], strict=False)
+        }
+        own = measured.pop("own stages")
+        mechanics = (Cost(OWN, "", own.calls, own.seconds), *self._mujoco(measured, tick))
+        called = [cost for cost in mechanics if cost.calls]
+        return (*found, *called, Cost(LOOP, "", 1, max(float(rest), 0.0)))
+
+    def _mujoco(self, measured: Mapping[str, Cost], tick: float) -> Iterator[Cost]:
+        """The stages of MuJoCo. Functions that are called alone were measured; MuJoCo has timers for the others."""
+        timers, other = self.loop.physics.data.timer, measured[OTHER]
+        rest = other.seconds
+        for name, cost in measured.items():
+            if name != OTHER:
+                yield cost
+        for name, word in _TIMERS.items():
+            if name not in measured or not measured[name].calls:
+                timer = timers[int(getattr(mujoco.mjtTimer, f"mjTIMER_{word}"))]
+                seconds = float(timer.duration) * tick / self.steps
+                rest -= seconds
+                yield Cost(name, "MuJoCo", round(timer.number / self.steps), seconds)
+        yield Cost(OTHER, "MuJoCo", other.calls, max(rest, 0.0))
 
 
 def _step(loop: NativeLoop, model: Model) -> float:

@@ -10,7 +10,7 @@ from gaitsim.components.find import Library, shipped_folder
 from gaitsim.errors import SimulationFailed
 from gaitsim.model import Model
 from gaitsim.simulation.native_loop import NativeLoop
-from gaitsim.simulation.profile import LOOP, Profile, profile
+from gaitsim.simulation.profile import LOOP, OTHER, Profile, profile
 from gaitsim.spec.resolve import resolve
 from gaitsim.text.document import parse
 
@@ -74,6 +74,16 @@ def test_every_part_and_every_stage_of_mujoco_has_its_cost(made: Model, found: P
     assert names["kinematics"].seconds > 0
     assert (names["rod"].calls, names["slow"].calls, names["most"].calls) == (0, 1, 2)
     assert found.steps == 5000
+
+
+def test_functions_of_mujoco_that_are_called_alone_have_their_stages(made: Model, found: Profile) -> None:
+    names = {cost.name: cost.calls for cost in found.costs if cost.use == "MuJoCo"}
+    stages = ("kinematics", "inertia", "transmission", "velocity", "actuation", "acceleration", "solver", "integration")
+    assert names == dict.fromkeys(stages, 1)
+    spec = parse(SPEC.replace("5 s, step: 1 ms", "0.5 s, step: 1 ms, integrator: rk4"), "spec.yaml")
+    steps = profile(resolve(spec, Library((made.parts[2].type.path.parents[1], shipped_folder())), "spec"))
+    calls = {cost.name: cost.calls for cost in steps.costs if cost.use == "MuJoCo"}
+    assert (calls["kinematics"], calls[OTHER]) == (4, 3)
 
 
 def test_costs_add_up_to_the_step(found: Profile) -> None:
