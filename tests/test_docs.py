@@ -257,6 +257,12 @@ def test_links_lead_to_files(name: str) -> None:
     assert links and not [link for link in links if not (ROOT / link).is_file()]
 
 
+def test_the_readme_leads_to_every_page() -> None:
+    links = LINK.findall((ROOT / "README.md").read_text(encoding="utf-8"))
+    pages = {f"docs/{path.relative_to(ROOT / 'docs').as_posix()}" for path in (ROOT / "docs").rglob("*.md")}
+    assert pages - {"docs/index.md"} <= set(links)  # the index of the site says what README says
+
+
 @pytest.mark.parametrize("name", NAMES)
 def test_named_files_exist(name: str) -> None:
     named = NAMED.findall((ROOT / name).read_text(encoding="utf-8"))
