@@ -1,7 +1,8 @@
 """How a deviation of a walk in space grows from touchdown to touchdown: `python bench/orbit.py`.
 
-The start is turned by 2 and 5 mrad in roll, to both sides. At each touchdown seven numbers of the walk (`regular.py`)
-are compared with those of the undisturbed one. It draws docs/pictures/scone_growth.png and prints the factor per step.
+The start is turned by 2 and 5 mrad in roll, to both sides. At each touchdown seven numbers of the walk
+(`touchdowns.py`) are compared with those of the undisturbed one. It draws docs/pictures/scone_growth.png and prints the
+factor per step.
 """
 
 from __future__ import annotations
@@ -10,10 +11,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-import matplotlib.pyplot as plt
 import numpy as np
-from regular import SCALES, Walks, touchdowns
+from touchdowns import SCALES, touchdowns
 
+from gaitsim.simulation.run import Simulator
 from gaitsim.study.opening import Opening
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -33,30 +34,41 @@ STEPS = 10
 
 def deviations(settings: Sequence[str]) -> Any:
     """The size of the deviation after each touchdown, as the geometric mean over all starts."""
-    walks = Walks(Opening(SPEC, ("simulate.duration=8 s", *settings)).open().model(), 0.0)
-    start = np.array(walks.model.start)
-    roll = [free.address for free in walks.model.free].index("initial.root.roll")
+    model = Opening(SPEC, ("simulate.duration=8 s", *settings)).open().model()
+    simulator, start = Simulator(model), np.array(model.start)
+    roll = [free.address for free in model.free].index("initial.root.roll")
     tables = []
     for turn in (0.0, *TURNS):
         x = start.copy()
         x[roll] += turn
-        found = walks.run(x, [0]).trajectory
+        found = simulator.run(x.tolist(), recorded=True).trajectory
         assert found is not None
         tables.append(touchdowns(found)[1 : STEPS + 1])
-    length = min(map(len, tables))
-    sizes = [np.linalg.norm((each[:length] - tables[0][:length]) / SCALES, axis=1) for each in tables[1:]]
-    return np.exp(np.mean(np.log(sizes), axis=0))
+    return sizes(tables[0], tables[1:])
+
+
+def sizes(walk: Any, others: Sequence[Any]) -> Any:
+    """How far walks are from the first one after each touchdown that all of them have: the geometric mean of norms."""
+    length = min(map(len, (walk, *others)))
+    norms = [np.linalg.norm((other[:length] - walk[:length]) / SCALES, axis=1) for other in others]
+    return np.exp(np.mean(np.log(norms), axis=0))
+
+
+def factor(deviation: Any) -> float:
+    """The factor by which a deviation grows from one touchdown to the next."""
+    return float(np.exp(np.polyfit(np.arange(len(deviation)), np.log(deviation), 1)[0]))
 
 
 def main() -> None:
     """Draw and print."""
+    import matplotlib.pyplot as plt
+
     figure, panel = plt.subplots(figsize=(6, 3.6), layout="constrained")
     for name, settings in CASES.items():
-        sizes = deviations(settings)
-        steps = np.arange(2, len(sizes) + 2)
-        factor = float(np.exp(np.polyfit(steps, np.log(sizes), 1)[0]))
-        print(f"{name}: {factor:.2f} per step, {len(sizes)} steps")
-        panel.semilogy(steps, sizes, "o-", ms=3, lw=1, label=f"{name}: x {factor:.2f} per step")
+        found = deviations(settings)
+        growth = f"{factor(found):.2f} per step"
+        print(f"{name}: {growth}, {len(found)} steps", flush=True)
+        panel.semilogy(np.arange(2, len(found) + 2), found, "o-", ms=3, lw=1, label=f"{name}: x {growth}")
     panel.set(xlabel="touchdown", ylabel="deviation from the undisturbed walk")
     panel.legend(frameon=False, fontsize=8)
     panel.spines[["top", "right"]].set_visible(False)

@@ -21,39 +21,19 @@ from typing import Any
 
 import cma
 import numpy as np
+from touchdowns import SCALES, touchdowns
 
 from gaitsim.model import Model
-from gaitsim.simulation.outcome import Outcome, Trajectory
+from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
 from gaitsim.study.opening import Opening
 
-# Deviations that cost 1: rad, rad, rad, m/s, m, s, m/s.
-SCALES = np.array([0.12, 0.06, 0.08, 0.1, 0.04, 0.05, 0.12])
 MOST = 9.0  # cost of a touchdown that differs much, or is missing
 SETTLED = 2  # touchdowns before the first that counts
-SHORTEST, USUAL = 0.5, 0.56  # s: between touchdowns of a foot at least, and between two touchdowns usually
+USUAL = 0.56  # s: between two touchdowns
 SLOWEST, FASTEST = 1.0, 1.45  # m/s
 # Of the slope: differences to either side and lengths of a step, in spreads of the spec.
 DIFFERENCE, LENGTHS = 0.06, (0.003, 0.01, 0.03, 0.1)
-
-
-def touchdowns(found: Trajectory) -> Any:
-    """What a walk is like 0.1 s after each touchdown: a row of seven numbers, as in the module's text."""
-    times, rows = found.times, []
-    later = round(0.1 / (times[1] - times[0]))
-    for leg, sign in (("l", -1), ("r", 1)):
-        loaded, before = found[f"leg_{leg}.ground.load"] > 0.1, -1.0
-        for k in np.flatnonzero(loaded[1:] & ~loaded[:-1]) + 1:
-            if times[k] - before < SHORTEST:
-                continue
-            before, j = times[k], min(k + later, len(times) - 1)
-            aside = found["center.left"][j] - found[f"leg_{leg}.heel.side_position"][j]
-            turned = [sign * found[f"root.{name}"][j] for name in ("yaw", "roll")]
-            moved = [sign * found["center.left_velocity"][j], sign * aside]
-            rows.append([times[k], *turned, found["root.pitch"][j], *moved, 0.0, found["center.forward_velocity"][j]])
-    table = np.array(sorted(rows)).reshape(-1, 8)
-    table[:, 6] = np.diff(table[:, 0], prepend=np.nan)
-    return table[:, 1:]
 
 
 def cost(outcome: Outcome, duration: float) -> float:
