@@ -77,8 +77,9 @@ class Ground:
             rest = _zero(excess, _NEAR * lift.load)
         if not abs(rest) <= _NEAR * lift.load:
             part, depth = program.model.parts[lift.part], touching - float(self.data.qpos[place])
+            shown = round(100 * depth, 1) + 0.0  # not -0
             rule = f"load is {lift.load:g}, which the ground carries at no height at the start"
-            found = f"{100 * depth:.3g} cm below the first touch it carries {lift.load + rest:.3g}"
+            found = f"{shown:g} cm below the first touch it carries {lift.load + rest:.3g}"
             move = "change load, or the posture and the velocities in initial:"
             raise InvalidSpec(Fault(f"{rule}: {found}; {move}.", part.mark, part.address))
 
@@ -149,7 +150,8 @@ def _zero(function: Callable[[float], float], near: float) -> float:
     """Find a zero of a growing function: by doubling, then by the method of Anderson and Björck between two ends.
 
     Returns:
-        The value at the last place that was tried. It is farther from 0 than `near` if there is no zero.
+        The value at the last place that was tried. It is farther from 0 than `near` if there is no zero; the place is
+            then that of the greatest value, or the one just behind a jump.
     """
     place, value = _FIRST, function(_FIRST)
     end, end_value = place, value
@@ -171,4 +173,4 @@ def _zero(function: Callable[[float], float], near: float) -> float:
             # The other end stays. With its value made smaller, the next secant leads beyond the zero.
             kept = 1 - value / last_value
             end_value *= kept if kept > 0 else 0.5
-    return value
+    return value if abs(value) <= near else function(max(place, end))

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from gaitsim.components.find import shipped_folder
-from gaitsim.errors import SimulationFailed
+from gaitsim.errors import InvalidSpec, SimulationFailed
 from gaitsim.simulation.run import Simulator
 
 from .plane import body_of, model_of, played
@@ -135,6 +135,14 @@ def test_other_positions_and_all_velocities_stay(tmp_path: Path) -> None:
     assert np.flatnonzero(free.data.qpos != loaded.data.qpos).tolist() == [1]
     assert free.data.qvel.tobytes() == loaded.data.qvel.tobytes()
     assert 1e-3 < free.data.qpos[1] - loaded.data.qpos[1] < 2e-2
+
+
+def test_a_force_that_begins_with_a_jump_may_have_no_height(tmp_path: Path) -> None:
+    words = {**FLAT, "CONTACT": "spring_damper, stiffness: 60 kN/m, damping: 1 kN s/m"}
+    assert first_loads(played(PLANE, tmp_path, **{**words, "SPEED": "-0.1 m/s"})) == pytest.approx(1, rel=2e-8)
+    # Two dampers of 1 kN s/m at 1 m/s push with 2 kN at the first touch already.
+    with pytest.raises(InvalidSpec, match=r"0 cm below the first touch it carries 3\.4;"):
+        Simulator(model_of(PLANE, tmp_path, **{**words, "SPEED": "-1 m/s"}))
 
 
 @pytest.mark.parametrize("mode", ["rapid", "normal"])
