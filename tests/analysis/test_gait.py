@@ -268,7 +268,7 @@ def test_many_muscles_are_drawn_together_for_each_leg() -> None:
     assert [d.name for d in figures_of(replay, "leg_r.soleus")] == ["muscle_leg_r.soleus"]
     sent = muscle_figures(replay)[3].figure.axes[3]
     assert sent.get_title(loc="left") == "vastus"
-    assert [line.get_label() for line in sent.lines] == ["vastus force", "knee overextension", "vastus unloading"]
+    assert [line.get_label() for line in sent.lines] == ["force", "knee overextension", "unloading"]
     # The joints of the two legs have panels of their own; the signals of 40 controllers have none.
     (joints,) = motion_figures(replay)
     assert [len(axes.lines) for axes in joints.figure.axes] == [3, 3]
