@@ -90,7 +90,7 @@ def test_numbers_parts_and_sources_are_on_the_page(pendulum: Replay, tmp_path: P
     assert "An inverted pendulum that a PID controller with delay keeps upright" in text
     assert "completed ran its whole time of 10 s" in text
     assert "the video is missing" in text
-    value = facts.shown(pendulum.outcome.metrics["torque"])
+    value = facts.formatted(pendulum.outcome.metrics["torque"])
     assert f"torque {value} N·m" in text
     assert "balance.proportional 60 N·m/rad 20 200" in text
     assert "controller/pid" in text and "segment/rod" in text
@@ -223,7 +223,7 @@ def test_the_tree_has_every_part_once_and_inside_its_own() -> None:
 
 
 def test_numbers_as_they_are_shown() -> None:
-    assert [facts.shown(n) for n in (0.162978, -1e-7, None, float("nan"), 22000)] == [
+    assert [facts.formatted(n) for n in (0.162978, -1e-7, None, float("nan"), 22000)] == [
         "0.16298",
         "−1e−07",
         "–",

@@ -133,8 +133,8 @@ def quantity(unit: str) -> str:
     if unit in _MEANT:
         return _MEANT[unit]
     dimension = parse_unit(unit).dimension
-    words = str(dimension).removeprefix("an ").removeprefix("a ")
-    return "value" if dimension.plain else words.removeprefix("quantity of ")
+    name = str(dimension).removeprefix("an ").removeprefix("a ")
+    return "value" if dimension.plain else name.removeprefix("quantity of ")
 
 
 def shown_unit(unit: str) -> str:

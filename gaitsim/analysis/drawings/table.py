@@ -15,7 +15,7 @@ class Table:
     numeric: frozenset[int] = frozenset()
 
 
-def shown(number: float | None, digits: int = 5) -> str:
+def formatted(number: float | None, digits: int = 5) -> str:
     """A number as text for a table; a dash for nan."""
     if number is None or not math.isfinite(number):
         return "–"

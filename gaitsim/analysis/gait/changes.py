@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from gaitsim.analysis.drawings.style import shown_unit
-from gaitsim.analysis.drawings.table import Table, shown
+from gaitsim.analysis.drawings.table import Table, formatted
 from gaitsim.analysis.gait.comparison import matched_signals
 from gaitsim.analysis.gait.legs import two_legs
 from gaitsim.analysis.gait.numbers import gait_numbers
@@ -70,15 +70,15 @@ def changes_table(replays: Sequence[Replay]) -> Table | None:
 
 def _cells(values: Sequence[float | None]) -> Iterator[str]:
     first = values[0]
-    yield _shown(first)
+    yield _formatted(first)
     for value in values[1:]:
         if first is None or value is None:
-            yield _shown(value)
+            yield _formatted(value)
             continue
         change = round(value - first, _ROUNDING)
         sign = "+" if change > 0 else ""
-        yield f"{_shown(value)} ({sign}{shown(change, 2)})"
+        yield f"{_formatted(value)} ({sign}{formatted(change, 2)})"
 
 
-def _shown(value: float | None) -> str:
-    return shown(None if value is None else round(value, _ROUNDING), 3)
+def _formatted(value: float | None) -> str:
+    return formatted(None if value is None else round(value, _ROUNDING), 3)

@@ -24,7 +24,7 @@ from gaitsim.analysis.gait.keypoints import FORWARDS, PEAKS_BY, POWERS, VERTICAL
 from gaitsim.analysis.gait.lateral import lateral_figures
 from gaitsim.analysis.gait.legs import SIDES, Leg, has_two_legs, mass, on_side, two_legs
 from gaitsim.analysis.gait.muscles import activation_figures, metabolic_figures, sided_muscles
-from gaitsim.analysis.gait.panels import BAND, LINE, draw_cycle, draw_people, name_lines, said
+from gaitsim.analysis.gait.panels import BAND, LINE, draw_cycle, draw_people, name_lines, strides_text
 from gaitsim.analysis.gait.pressure import pressure_figures
 from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
@@ -101,7 +101,7 @@ def _angles(replay: Replay, legs: Legs) -> list[Drawing]:
     turning = all(quantity(one.norm.unit) == "angle" for one in matched)
     title = "Joint angles over the gait cycle" if turning else "Signals over the gait cycle"
     caption = (
-        f"{', '.join(one.name for one in matched)}: {said(legs)}. {BAND} Dotted: take-off. "
+        f"{', '.join(one.name for one in matched)}: {strides_text(legs)}. {BAND} Dotted: take-off. "
         f"{_people_words(matched)} Zeros of hip and ankle differ by 10 to 20 deg between laboratories. {_IN_TABLE}"
     )
     return [Drawing("gait_angles", title, caption, figure)]
@@ -126,7 +126,7 @@ def _forces(replay: Replay, legs: Legs) -> Drawing:
     above(vertical)
     caption = (
         "Force of the ground on each foot in body weights, along the ground's normal and forwards along the ground: "
-        f"{said(legs)}. {BAND} Dotted: take-off.{peaks} The table Gait has the peaks."
+        f"{strides_text(legs)}. {BAND} Dotted: take-off.{peaks} The table Gait has the peaks."
     )
     return Drawing("gait_forces", "Ground reaction forces over the gait cycle", caption, figure)
 
@@ -137,22 +137,22 @@ def _moments(replay: Replay, legs: Legs) -> list[Drawing]:
     if not matched:
         return []
     figure, axes = panels(len(matched), 2, height=1.8, share=True)
-    words = []
+    summaries = []
     for row, one in enumerate(matched):
         moment, power = axes[2 * row], axes[2 * row + 1]
         _draw_matched(moment, legs, one, "N m/kg")
         moment.set_title(one.name.removesuffix(" moment"), loc="left", fontsize=FONT)
         moment.set_ylabel(labelled("moment", "N m/kg"))
         works = _draw_power(power, replay, legs, joints[one.name.split()[0]])
-        words.append(f"{one.name.split()[0]} {works}")
+        summaries.append(f"{one.name.split()[0]} {works}")
     name_lines(figure, axes[0])
     for panel in axes[-2:]:
         panel.set_xlabel(labelled("gait cycle", "%"))
     caption = (
-        f"Net joint moments (of muscles, stops and damping) and their powers over body mass: {said(legs)}. Extension "
-        f"and plantarflexion are positive; power is positive where a joint gives work. {BAND} Dotted: take-off. "
-        f"{_people_words(matched)} Dots: peaks of their powers ({PEAKS_BY}). Work a stride: "
-        f"{'; '.join(words)}. {_IN_TABLE}"
+        f"Net joint moments (of muscles, stops and damping) and their powers over body mass: {strides_text(legs)}. "
+        f"Extension and plantarflexion are positive; power is positive where a joint gives work. {BAND} "
+        f"Dotted: take-off. {_people_words(matched)} Dots: peaks of their powers ({PEAKS_BY}). Work a stride: "
+        f"{'; '.join(summaries)}. {_IN_TABLE}"
     )
     return [Drawing("gait_moments", "Joint moments and powers over the gait cycle", caption, figure)]
 
@@ -163,7 +163,7 @@ def _draw_power(panel: Axes, replay: Replay, legs: Legs, joint: ComparedSignal) 
     Returns:
         The positive and negative work of a stride, in words.
     """
-    words = []
+    summaries = []
     for leg in legs:
         own = on_side(joint.signal, leg.side).rpartition(".")[0]
         power, works = joint_power(replay, own), joint_work(replay, leg, own)
@@ -171,11 +171,11 @@ def _draw_power(panel: Axes, replay: Replay, legs: Legs, joint: ComparedSignal) 
             continue
         draw_cycle(panel, leg, leg.over_cycle(power / mass(replay, leg)))
         given, taken = (float(np.mean(work)) / mass(replay, leg) for work in works)
-        words.append(f"{leg.name} {given:+.2g} and {taken:+.2g} J/kg")
+        summaries.append(f"{leg.name} {given:+.2g} and {taken:+.2g} J/kg")
     draw_peaks(panel, POWERS.get(joint.name.split()[0], ()))
     panel.set_title(joint.name.split()[0], loc="left", fontsize=FONT)
     panel.set_ylabel(labelled("power", "W/kg"))
-    return ", ".join(words)
+    return ", ".join(summaries)
 
 
 def _steps(replay: Replay, legs: Legs) -> Drawing:
@@ -230,7 +230,7 @@ def _margin(replay: Replay, legs: Legs) -> list[Drawing]:
     landed = [100 * float(np.mean(leg.over_cycle(found).rows[:, 0])) for leg in legs]
     caption = (
         "By how far the foremost point that stands is ahead of the extrapolated center of mass, x + v / sqrt(g / l) "
-        f"with l its mean height (Hof and others 2005): {said(legs)}. {BAND} At touchdown: "
+        f"with l its mean height (Hof and others 2005): {strides_text(legs)}. {BAND} At touchdown: "
         f"{' and '.join(f'{leg.name} {at:.3g} cm' for leg, at in zip(legs, landed, strict=True))}. "
         "Below 0 the next step must catch the fall forwards."
     )

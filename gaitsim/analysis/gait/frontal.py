@@ -12,7 +12,7 @@ from gaitsim.analysis.drawings.style import GREY, above, labelled, panels
 from gaitsim.analysis.gait.joint_moments import joint_moment
 from gaitsim.analysis.gait.keypoints import ACROSS, ACROSS_BY, draw_peaks, name_peaks
 from gaitsim.analysis.gait.legs import Leg, mass, side_of, unsided
-from gaitsim.analysis.gait.panels import BAND, draw_cycle, said
+from gaitsim.analysis.gait.panels import BAND, draw_cycle, strides_text
 from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.model import Model, Part
@@ -43,10 +43,10 @@ def frontal_figures(replay: Replay, legs: Sequence[Leg]) -> list[Drawing]:
     axes[-1].set_xlabel(labelled("gait cycle", "%"))
     people = f" Green: peaks of adults ({ACROSS_BY})." if known else ""
     caption = (
-        f"Out of the sagittal plane: {said(legs)}. The obliquity is positive while the leg's own side of the pelvis is "
-        "raised, its rotation while that side is in front; rotation of the hip inwards is positive, the moment of the "
-        "hip where it abducts the thigh or raises the other side of the pelvis, and the force of the ground towards "
-        f"the other foot. {BAND} Dotted: take-off.{people}"
+        f"Out of the sagittal plane: {strides_text(legs)}. The obliquity is positive while the leg's own side of "
+        "the pelvis is raised, its rotation while that side is in front; rotation of the hip inwards is positive, "
+        "the moment of the hip where it abducts the thigh or raises the other side of the pelvis, and the force "
+        f"of the ground towards the other foot. {BAND} Dotted: take-off.{people}"
     )
     return [Drawing("gait_frontal", "Motion and force out of the sagittal plane over the gait cycle", caption, figure)]
 

@@ -12,7 +12,7 @@ from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.drawings.style import GREY, PALETTE, above, labelled, panels
 from gaitsim.analysis.gait.footsteps import center_of, landing_contact, landings, on_level_ground
 from gaitsim.analysis.gait.legs import Leg, unsided
-from gaitsim.analysis.gait.panels import BAND, LINE, draw_cycle, said
+from gaitsim.analysis.gait.panels import BAND, LINE, draw_cycle, strides_text
 from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
 
@@ -69,16 +69,16 @@ def lateral_figures(replay: Replay, legs: Sequence[Leg]) -> list[Drawing]:
     axes[1].set_ylabel(labelled("step width", "cm"))
     axes[1].set_xlabel(labelled("time of touchdown", "s"))
     above(axes[1])
-    words = ""
+    margins_text = ""
     if margins is not None:
-        words = _draw_margins(axes[2], legs, margins)
+        margins_text = _draw_margins(axes[2], legs, margins)
     spread = np.array([100 * width for _, width in widths])
     mean = f"{np.mean(spread):.3g} ± {np.std(spread):.2g} cm (mean ± standard deviation)" if len(spread) else "–"
     caption = (
         "Top: footprints seen from above, along the mean way of the walker, with the paths of its center of mass and "
         "of its extrapolated center of mass, x + v sqrt(l / g) (Hof and others 2005). The step width is the distance "
         "of a print from the line between the prints of the other foot before and after it (Huxham and others 2006): "
-        f"{mean}.{words}"
+        f"{mean}.{margins_text}"
     )
     return [Drawing("gait_lateral", "Footprints, step width and margin to the side", caption, figure)]
 
@@ -141,11 +141,11 @@ def least_margins(leg: Leg, other: Leg, margin: Floats) -> Floats:
 
 
 def _draw_map(panel: Axes, replay: Replay, sensor: str, way: Way, prints: Sequence[Print]) -> None:
-    shown = (replay.times >= prints[0].at) & (replay.times <= prints[-1].at)
+    inside = (replay.times >= prints[0].at) & (replay.times <= prints[-1].at)
     signals = replay.trajectory
-    x, y = way.seen(signals[f"{sensor}.forward"][shown], signals[f"{sensor}.left"][shown])
+    x, y = way.seen(signals[f"{sensor}.forward"][inside], signals[f"{sensor}.left"][inside])
     time = np.sqrt(np.mean(signals[f"{sensor}.height"]) / replay.model.simulate.gravity)
-    rates = (signals[f"{sensor}.forward_velocity"][shown], signals[f"{sensor}.left_velocity"][shown])
+    rates = (signals[f"{sensor}.forward_velocity"][inside], signals[f"{sensor}.left_velocity"][inside])
     ahead = time * (rates[0] * np.cos(way.heading) + rates[1] * np.sin(way.heading))
     panel.plot(x, 100 * y, color=GREY, linewidth=1, label="center of mass")
     panel.plot(x + ahead, 100 * (y + time * way.turned(*rates)), color=PALETTE[2], linewidth=0.8, label="extrapolated")
@@ -163,20 +163,20 @@ def _draw_margins(panel: Axes, legs: Sequence[Leg], margins: dict[str, Floats]) 
     Returns:
         The caption.
     """
-    words = []
+    summaries = []
     for leg, other in zip(legs, reversed(legs), strict=True):
         draw_cycle(panel, leg, leg.over_cycle(100 * margins[leg.side]))
         least = 100 * least_margins(leg, other, margins[leg.side])
         if len(least):
-            words.append(f"{leg.name} {np.mean(least):.3g} cm, at worst {np.min(least):.3g} cm")
+            summaries.append(f"{leg.name} {np.mean(least):.3g} cm, at worst {np.min(least):.3g} cm")
     panel.axhline(0, color=GREY, linewidth=0.8)
     panel.set_ylabel(labelled("margin to the side", "cm"))
     panel.set_xlabel(labelled("gait cycle", "%"))
     above(panel)
     return (
         " Margin to the side: by how far the extrapolated center of mass is inside of the outermost contact of the "
-        f"standing foot, {said(legs)}. {BAND} Dotted: take-off. Least while it stands alone: {'; '.join(words)}. Below "
-        "0 the walker falls to that side unless its legs cross."
+        f"standing foot, {strides_text(legs)}. {BAND} Dotted: take-off. Least while it stands alone: "
+        f"{'; '.join(summaries)}. Below 0 the walker falls to that side unless its legs cross."
     )
 
 

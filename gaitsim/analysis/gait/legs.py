@@ -68,7 +68,7 @@ class Leg:
 
     def share(self, values: Floats) -> Floats:
         """The mean of a signal over each stride; for `standing` it is the share of stance."""
-        return np.array([np.mean(values[kept]) for kept in self._inside], dtype=np.float64)
+        return np.array([np.mean(values[inside]) for inside in self._inside], dtype=np.float64)
 
     def integral(self, values: Floats) -> Floats:
         """The integral of a signal over each stride; for a power it is the work."""
@@ -77,7 +77,7 @@ class Leg:
 
     def highest(self, values: Floats) -> Floats:
         """The maximum of a signal in each stride, over all instants."""
-        return np.array([np.max(values[kept]) for kept in self._inside], dtype=np.float64)
+        return np.array([np.max(values[inside]) for inside in self._inside], dtype=np.float64)
 
     @property
     def _inside(self) -> list[NDArray[np.bool_]]:

@@ -11,7 +11,7 @@ from gaitsim.analysis.drawings.style import FONT, above, labelled, panels
 from gaitsim.analysis.gait.comparison import runs
 from gaitsim.analysis.gait.keypoints import ON, ON_BY, draw_on
 from gaitsim.analysis.gait.legs import SIDES, Leg, mass, side_of, unsided
-from gaitsim.analysis.gait.panels import BAND, PEOPLE, draw_cycle, name_lines, said
+from gaitsim.analysis.gait.panels import BAND, PEOPLE, draw_cycle, name_lines, strides_text
 from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
 
@@ -52,7 +52,7 @@ def activation_figures(replay: Replay, legs: Legs) -> list[Drawing]:
         axes[0].plot([], [], color=PEOPLE, linewidth=4, label="on in people")
     name_lines(figure, axes[0])
     on = f" Bars above: where people's muscle is above half of its range ({ON_BY})." if known else ""
-    caption = f"Activation of each muscle: {said(legs)}. {BAND} Dotted: take-off.{on}"
+    caption = f"Activation of each muscle: {strides_text(legs)}. {BAND} Dotted: take-off.{on}"
     return [Drawing("gait_activations", "Muscle activations over the gait cycle", caption, figure)]
 
 
@@ -71,16 +71,16 @@ def metabolic_figures(replay: Replay, legs: Legs) -> list[Drawing]:
     if not powers:
         return []
     figure, (panel,) = panels(height=2.2)
-    words = []
+    summaries = []
     for leg in legs:
         if leg.side in powers:
             draw_cycle(panel, leg, leg.over_cycle(powers[leg.side]))
-            words.append(f"{leg.name} {np.mean(leg.share(powers[leg.side])):.3g} W/kg")
+            summaries.append(f"{leg.name} {np.mean(leg.share(powers[leg.side])):.3g} W/kg")
     panel.set_ylabel(labelled("metabolic power", "W/kg"))
     panel.set_xlabel(labelled("gait cycle", "%"))
     above(panel)
     caption = (
-        f"Metabolic power of all muscles of each leg over body mass: {said(legs)}. {BAND} Dotted: take-off. "
-        f"In the mean {' and '.join(words)}; the body's power at rest is not in it."
+        f"Metabolic power of all muscles of each leg over body mass: {strides_text(legs)}. {BAND} Dotted: take-off. "
+        f"In the mean {' and '.join(summaries)}; the body's power at rest is not in it."
     )
     return [Drawing("gait_metabolics", "Metabolic power over the gait cycle", caption, figure)]

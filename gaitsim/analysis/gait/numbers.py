@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from gaitsim.analysis.drawings.style import shown_unit
-from gaitsim.analysis.drawings.table import Table, shown
+from gaitsim.analysis.drawings.table import Table, formatted
 from gaitsim.analysis.gait.comparison import compared_signals, norm_numbers
 from gaitsim.analysis.gait.figures import symmetry_pairs
 from gaitsim.analysis.gait.footsteps import double_support, margin, steps, symmetry
@@ -122,7 +122,7 @@ def gait_table(replay: Replay) -> Table | None:
     found = {name: row for name, row in gait_numbers(replay).items() if "mean" in row}
     columns = ("gait", "unit", "mean", "deviation", "left", "right")
     rows = tuple(
-        (name, shown_unit(row["unit"]), *(_shown(row.get(word), 4) for word in columns[2:]))
+        (name, shown_unit(row["unit"]), *(_formatted(row.get(word), 4) for word in columns[2:]))
         for name, row in found.items()
     )
     return Table(columns, rows, frozenset(range(2, 6))) if rows else None
@@ -132,7 +132,11 @@ def norms_table(replay: Replay) -> Table | None:
     """The curves of each leg beside those of people; None without any."""
     columns = ("curve", "leg", "correlation", "RMSE", "range", "people's range", "peak later by (%)", "fit (%)")
     rows = tuple(
-        (f"{curve.rpartition('.')[2]} ({shown_unit(row['unit'])})", leg, *(_shown(each, 3) for each in _compared(row)))
+        (
+            f"{curve.rpartition('.')[2]} ({shown_unit(row['unit'])})",
+            leg,
+            *(_formatted(each, 3) for each in _compared(row)),
+        )
         for curve, legs in norm_numbers(replay).items()
         for leg, row in legs.items()
     )
@@ -145,6 +149,6 @@ def _compared(row: Mapping[str, Any]) -> list[float | None]:
     return [row["correlation"], row["error"], reach, people, row["timing_difference"], row["fit"]]
 
 
-def _shown(number: float | None, digits: int) -> str:
+def _formatted(number: float | None, digits: int) -> str:
     """A number as text; rounding errors become 0."""
-    return shown(None if number is None else round(number, 9), digits)
+    return formatted(None if number is None else round(number, 9), digits)

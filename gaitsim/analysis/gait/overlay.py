@@ -70,7 +70,7 @@ def gait_overlays(replays: Sequence[Replay]) -> list[Drawing]:
     if len(walkers) < 2:
         return []
     others = [replay.label for replay in replays if two_legs(replay) is None]
-    return [drawing for overlay in _OVERLAYS for drawing in _drawn(overlay, walkers, others)]
+    return [drawing for overlay in _OVERLAYS for drawing in _drawings(overlay, walkers, others)]
 
 
 def _matched(found: Sequence[ComparedQuantity], unit: str = "") -> list[Curve]:
@@ -113,7 +113,7 @@ class _Overlay:
 
     name: str
     title: str
-    words: str
+    caption: str
     curves: _Curves
 
 
@@ -132,7 +132,7 @@ _OVERLAYS = (
 )
 
 
-def _drawn(overlay: _Overlay, walkers: Sequence[tuple[Replay, Legs]], others: Sequence[str]) -> Iterator[Drawing]:
+def _drawings(overlay: _Overlay, walkers: Sequence[tuple[Replay, Legs]], others: Sequence[str]) -> Iterator[Drawing]:
     """The figures of one kind, with a few quantities each."""
     runs = [(replay.label, {one.name: one for one in overlay.curves(replay, legs)}) for replay, legs in walkers]
     names = list(dict.fromkeys(name for _, curves in runs for name in curves))
@@ -140,7 +140,9 @@ def _drawn(overlay: _Overlay, walkers: Sequence[tuple[Replay, Legs]], others: Se
     for number, page in enumerate(pages, start=1):
         of = f" ({number} of {len(pages)})" if len(pages) > 1 else ""
         name = overlay.name if len(pages) == 1 else f"{overlay.name}_{number}"
-        caption = f"{', '.join(page)}: {_means(walkers)}.{overlay.words}{_people(runs)}{_left_out(runs, page, others)}"
+        caption = (
+            f"{', '.join(page)}: {_means(walkers)}.{overlay.caption}{_people(runs)}{_left_out(runs, page, others)}"
+        )
         yield Drawing(name, f"{overlay.title} over the gait cycle{of}", caption, _figure(page, runs))
 
 
@@ -150,8 +152,8 @@ def _figure(names: Sequence[str], runs: Sequence[tuple[str, Mapping[str, Curve]]
         axes[2 * row + 1].sharey(axes[2 * row])
         for column, side in enumerate(SIDES):
             _panel(axes[2 * row + column], side, [(label, curves.get(name)) for label, curves in runs])
-        shown = next(curves[name] for _, curves in runs if name in curves)
-        axes[2 * row].set_ylabel(shown.axis)
+        first = next(curves[name] for _, curves in runs if name in curves)
+        axes[2 * row].set_ylabel(first.axis)
     for panel, leg in zip(axes[:2], SIDES.values(), strict=True):
         panel.set_title(leg, loc="left", fontsize=FONT)
     for panel in axes[-2:]:

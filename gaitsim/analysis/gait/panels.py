@@ -23,7 +23,7 @@ PEOPLE = PALETTE[2]  # not grey, because the bands of two legs are grey where th
 BAND = "Bands of a leg's colour: one standard deviation over its strides."
 
 
-def said(legs: Sequence[Leg], until: str = "touchdown") -> str:
+def strides_text(legs: Sequence[Leg], until: str = "touchdown") -> str:
     """Which strides are shown, and how, in words."""
     counts = " and ".join(f"{len(leg.strides)} strides of the {leg.name} leg" for leg in legs)
     return f"mean of {counts}, from {min(leg.touchdowns[0] for leg in legs):.3g} s on, from touchdown to {until}"

@@ -12,7 +12,7 @@ from gaitsim.analysis.drawings.drawing import Drawing
 from gaitsim.analysis.drawings.style import FONT, GREY, above, labelled, panels
 from gaitsim.analysis.gait.legs import Cycle, Leg, unsided
 from gaitsim.analysis.gait.norms import POINTS
-from gaitsim.analysis.gait.panels import BAND, draw_band, said
+from gaitsim.analysis.gait.panels import BAND, draw_band, strides_text
 from gaitsim.analysis.replays.cycles import Floats
 from gaitsim.analysis.replays.replay import Replay
 
@@ -91,12 +91,12 @@ def pressure_figures(replay: Replay, legs: Sequence[Leg]) -> list[Drawing]:
     shares.set_ylabel(labelled("foot lengths", "1"), fontsize=FONT)
     shares.tick_params(labelsize=FONT - 1)
     above(panel)
-    words = "; ".join(_words(one) for one in found)
+    summaries = "; ".join(_summary(one) for one in found)
     caption = (
         "Center of pressure of each foot, forwards from its heel's print along the ground: "
-        f"{said(legs, until='take-off')}. {BAND} Dotted: the foot's hindmost contact "
+        f"{strides_text(legs, until='take-off')}. {BAND} Dotted: the foot's hindmost contact "
         f"({_named(found, 'heel')}) and its foremost one ({_named(found, 'front')}), a foot length apart. "
-        f"Mean: {words}."
+        f"Mean: {summaries}."
     )
     return [Drawing("gait_pressure", "Center of pressure over stance", caption, figure)]
 
@@ -109,7 +109,7 @@ def _named(found: Sequence[Pressure], which: str) -> str:
     return " and ".join(dict.fromkeys(unsided(getattr(one, which)) for one in found))
 
 
-def _words(one: Pressure) -> str:
+def _summary(one: Pressure) -> str:
     mean = 100 * one.over_stance.mean
     passing = "never beyond" if np.isnan(one.middle_at) else f"at {100 * one.middle_at:.0f} % of stance past"
     return (

@@ -163,7 +163,7 @@ def hopping_figures(replay: Replay) -> list[Drawing]:
     return [*_return_map(replay, hops), *apexes, *_ground_force(replay)]
 
 
-def _said(hops: Hops) -> str:
+def _hop_count(hops: Hops) -> str:
     above = f" above {hops.reference:g} m" if hops.reference else ""
     return f"{hops.signal}{above}"
 
@@ -175,10 +175,10 @@ def _return_map(replay: Replay, hops: Hops) -> list[Drawing]:
     if starts is None and len(own) < 2:
         return []
     figure, (axes,) = panels(1, 1, height=5.0)
-    words = [f"Each apex of {_said(hops)} against the one before; on the diagonal a hop repeats itself."]
+    sentences = [f"Each apex of {_hop_count(hops)} against the one before; on the diagonal a hop repeats itself."]
     if starts is not None:
         axes.plot(starts.before, starts.after, "o-", color=PALETTE[0], markersize=3.5, label="one hop after each start")
-        words.append(_of_starts(starts))
+        sentences.append(_of_starts(starts))
     settled = fixed_point(own)
     points = (starts.fixed_points if starts else []) or ([settled] if settled else [])
     for k, point in enumerate(points):
@@ -192,30 +192,30 @@ def _return_map(replay: Replay, hops: Hops) -> list[Drawing]:
         }
         axes.plot([point.value], [point.value], **mark, zorder=4, label=f"{kind} fixed point" if k < 2 else None)
         slope = "" if point.slope is None else f", where the slope is {point.slope:.2g}"
-        words.append(f"The {kind} fixed point is at {point.value:.4g} m{slope}.")
+        sentences.append(f"The {kind} fixed point is at {point.value:.4g} m{slope}.")
     if len(own) > 1:
         axes.plot(np.repeat(own, 2)[1:-1], np.repeat(own, 2)[2:], color=GREY, linewidth=0.8)
         axes.plot(own[:-1], own[1:], "o", color=GREY, markersize=3, label="hops of this run")
-        words.append(f"Grey: the {len(own)} apexes of this run, in steps from one to the next.")
+        sentences.append(f"Grey: the {len(own)} apexes of this run, in steps from one to the next.")
     published = return_map_of(replay)
     if published is not None:
         axes.plot(*published.points, "s", color=PALETTE[2], markerfacecolor="none", label="reference")
-        words.append(f"Squares: {published.source}.")
+        sentences.append(f"Squares: {published.source}.")
     low, high = _square(axes.dataLim.x0, axes.dataLim.x1, axes.dataLim.y0, axes.dataLim.y1)
     axes.plot([low, high], [low, high], color="black", linewidth=0.8, zorder=1)
     axes.set(xlim=(low, high), ylim=(low, high), aspect="equal")
     axes.set_xlabel(labelled("apex height", "m"))
     axes.set_ylabel(labelled("next apex height", "m"))
     legend(axes)
-    return [Drawing("return_map", "Return map of apex heights", " ".join(words), figure)]
+    return [Drawing("return_map", "Return map of apex heights", " ".join(sentences), figure)]
 
 
 def _of_starts(starts: ApexPairs) -> str:
     lost = starts.before[np.isnan(starts.after)]
-    said = f"Dots: the model in its initial posture, dropped at rest from {len(starts.before)} heights."
+    sentence = f"Dots: the model in its initial posture, dropped at rest from {len(starts.before)} heights."
     if not lost.size:
-        return said
-    return f"{said} {lost.size} of them, from {lost.min():.4g} to {lost.max():.4g} m, had no second apex."
+        return sentence
+    return f"{sentence} {lost.size} of them, from {lost.min():.4g} to {lost.max():.4g} m, had no second apex."
 
 
 def _square(*ends: float) -> tuple[float, float]:
@@ -237,7 +237,7 @@ def _apexes(hops: Hops) -> Drawing:
         axes.set_ylim(heights.mean() - 0.01, heights.mean() + 0.01)
     last = heights[-3:]
     caption = (
-        f"Height of each apex, {_said(hops)}; hop 0 is the start. The last {len(last)} are at "
+        f"Height of each apex, {_hop_count(hops)}; hop 0 is the start. The last {len(last)} are at "
         f"{last.mean():.5g} m on average and differ by {np.ptp(last):.2g} m."
     )
     return Drawing("apex_heights", "Apex heights", caption, figure)
@@ -249,7 +249,7 @@ def _ground_force(replay: Replay) -> list[Drawing]:
         for part in replay.model.parts
         if part.type.kind == "contact" or {"in_stance", "force"} <= part.type.outputs.keys()
     ]
-    part, said = shown_part(replay)
+    part, period = shown_part(replay)
     if len(part.times) < 2 or not forces:
         return []
     figure, (axes,) = panels(1, 1, height=2.4)
@@ -262,5 +262,5 @@ def _ground_force(replay: Replay) -> list[Drawing]:
     if len(forces) > 1:
         legend(axes)
     peaks = ", ".join(f"{s.removesuffix('.force')} {part.trajectory[s].max():.4g} N" for s in forces)
-    caption = f"Force of the ground, upwards, over {said}. Largest: {peaks}.{' Grey: stance.' if shaded else ''}"
+    caption = f"Force of the ground, upwards, over {period}. Largest: {peaks}.{' Grey: stance.' if shaded else ''}"
     return [Drawing("ground_force", "Ground reaction force", caption, figure)]

@@ -17,17 +17,17 @@ _INCHES = 0.19  # a bar
 
 def cost_figure(costs: Sequence[Cost], profile: Profile, name: str) -> Drawing:
     """The largest costs of a step, one bar each, coloured by the kind of component; those of MuJoCo are grey."""
-    shown = costs[:_BARS]
-    figure, (axes,) = panels(height=0.6 + _INCHES * len(shown))
-    kinds = list(dict.fromkeys(kind for kind in map(_kind, shown) if kind))
+    largest = costs[:_BARS]
+    figure, (axes,) = panels(height=0.6 + _INCHES * len(largest))
+    kinds = list(dict.fromkeys(kind for kind in map(_kind, largest) if kind))
     colours = {kind: PALETTE[i % len(PALETTE)] for i, kind in enumerate(kinds)} | {"MuJoCo": GREY}
     labelled: set[str] = set()
-    for place, cost in enumerate(shown):
+    for place, cost in enumerate(largest):
         kind = _kind(cost)
         label = None if kind in labelled else kind or "loop"
         labelled.add(kind)
         axes.barh(place, 1e9 * cost.seconds, color=colours.get(kind, "#BBBBBB"), label=label)
-    axes.set_yticks(range(len(shown)), [cost.name for cost in shown], fontsize=FONT - 2)
+    axes.set_yticks(range(len(largest)), [cost.name for cost in largest], fontsize=FONT - 2)
     axes.invert_yaxis()
     axes.grid(axis="y", visible=False)
     axes.set_xlabel("time a step (ns)")

@@ -44,8 +44,8 @@ def _panel(axes: Axes, graph: Graph) -> None:
     for line, style in zip(graph.meanwhile, cycle(LINES[1:]), strict=False):
         _meanwhile(axes, graph, line, style)
     assumed = ", ".join(f"{name} = {value}" for name, value in graph.assumed.items())
-    words = [graph.doc.rstrip("."), *([f"assumed: {assumed}"] if assumed else [])]
-    axes.set_title("\n".join(piece for text in words for piece in textwrap.wrap(text, 42)), fontsize=FONT - 1)
+    title = [graph.doc.rstrip("."), *([f"assumed: {assumed}"] if assumed else [])]
+    axes.set_title("\n".join(piece for text in title for piece in textwrap.wrap(text, 42)), fontsize=FONT - 1)
     axes.set_xlabel(labelled(graph.across.name, across[0]))
     axes.set_ylabel(labelled(graph.up.name, up[0]))
     axes.margins(x=0)
@@ -57,15 +57,15 @@ def _panel(axes: Axes, graph: Graph) -> None:
 def _meanwhile(axes: Axes, graph: Graph, line: Line, style: str) -> None:
     """Draw an input that changes. It is scaled if it does not fit the axis; its label says so."""
     peak = float(np.abs(line.y).max()) or 1.0
-    shown = max((float(np.nanmax(np.abs(one.y))) for one in graph.lines), default=1.0) or 1.0
-    fits = graph.up.unit == "1" and 0.2 < shown / peak < 5
+    height = max((float(np.nanmax(np.abs(one.y))) for one in graph.lines), default=1.0) or 1.0
+    fits = graph.up.unit == "1" and 0.2 < height / peak < 5
     label = line.label if fits else f"{line.label} (to {peak:g}, not to scale)"
-    axes.plot(line.x, line.y if fits else line.y * shown / peak, color=GREY, linewidth=1, linestyle=style, label=label)
+    axes.plot(line.x, line.y if fits else line.y * height / peak, color=GREY, linewidth=1, linestyle=style, label=label)
 
 
 def _degrees(axis: Axis) -> tuple[str, float]:
     """The shown unit and the factor to it: degrees for radians."""
-    words = axis.unit.split("/")
-    if words[0].split()[0] == "rad":
+    factors = axis.unit.split("/")
+    if factors[0].split()[0] == "rad":
         return axis.unit.replace("rad", "deg", 1), float(np.degrees(1.0))
     return axis.unit, 1.0

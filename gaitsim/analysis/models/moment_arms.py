@@ -37,7 +37,7 @@ _HIP = ("extends", "flexes")
 _SENSES = {"hip": _HIP, "hip_flexion": _HIP, "knee": ("flexes", "extends"), "ankle": ("plantarflexes", "dorsiflexes")}
 
 
-def said(arm: MomentArm) -> str:
+def sentence(arm: MomentArm) -> str:
     """In which direction a muscle turns a joint in the initial pose, such as "leg_l.soleus plantarflexes leg_l.ankle
     (...)".
     """
@@ -60,7 +60,7 @@ def table(arms: Sequence[MomentArm]) -> list[dict[str, Any]]:
     where the angle increases.
     """
     return [
-        {"muscle": arm.muscle, "joint": arm.hinge.address, "says": said(arm), "arm": arm.initial, "unit": "m"}
+        {"muscle": arm.muscle, "joint": arm.hinge.address, "says": sentence(arm), "arm": arm.initial, "unit": "m"}
         for arm in arms
     ]
 

@@ -177,8 +177,8 @@ def energy_figures(replay: Replay) -> list[Drawing]:
     whole = balance(replay)
     if whole is None or len(replay.times) < 2:
         return []
-    part, said = shown_part(replay)
-    return [_stacked(replay, whole, part, said), _exchanged(replay, whole)]
+    part, period = shown_part(replay)
+    return [_stacked(replay, whole, part, period), _exchanged(replay, whole)]
 
 
 def _largest(energies: Mapping[str, Floats]) -> dict[str, Floats]:
@@ -192,17 +192,17 @@ def _largest(energies: Mapping[str, Floats]) -> dict[str, Floats]:
     return found | {f"{len(others)} others": np.sum(others, axis=0)}
 
 
-def _stacked(replay: Replay, whole: Balance, part: Replay, said: str) -> Drawing:
+def _stacked(replay: Replay, whole: Balance, part: Replay, period: str) -> Drawing:
     times = part.times
-    kept = (replay.times >= times[0]) & (replay.times <= times[-1])
-    shown = np.linspace(0, len(times) - 1, min(len(times), 1200)).astype(int)
-    lowest = whole.stored["potential"][kept].min() if "potential" in whole.stored else 0.0
-    layers = {name: values[kept] - (lowest if name == "potential" else 0.0) for name, values in whole.stored.items()}
+    inside = (replay.times >= times[0]) & (replay.times <= times[-1])
+    instants = np.linspace(0, len(times) - 1, min(len(times), 1200)).astype(int)
+    lowest = whole.stored["potential"][inside].min() if "potential" in whole.stored else 0.0
+    layers = {name: values[inside] - (lowest if name == "potential" else 0.0) for name, values in whole.stored.items()}
     layers = _largest(layers)
     figure, (axes,) = panels(1, 1, height=3.2)
-    stack = [values[shown] for values in layers.values()]
-    axes.stackplot(times[shown], stack, labels=list(layers), colors=PALETTE[:_SHOWN], alpha=0.75, linewidth=0)
-    axes.plot(times[shown], np.sum(stack, axis=0), color="black", linewidth=1.2, label="total")
+    stack = [values[instants] for values in layers.values()]
+    axes.stackplot(times[instants], stack, labels=list(layers), colors=PALETTE[:_SHOWN], alpha=0.75, linewidth=0)
+    axes.plot(times[instants], np.sum(stack, axis=0), color="black", linewidth=1.2, label="total")
     shade_stance(axes, part)
     axes.margins(x=0)
     axes.set_ylim(bottom=0)
@@ -211,7 +211,7 @@ def _stacked(replay: Replay, whole: Balance, part: Replay, said: str) -> Drawing
     above(axes)
     grey = " Grey: stance." if stance(part) is not None else ""
     caption = (
-        f"All energy that the model holds, over {said}; the layers sum to the total. Potential energy counts from "
+        f"All energy that the model holds, over {period}; the layers sum to the total. Potential energy counts from "
         f"its least value in this time ({lowest:.5g} J).{grey}"
     )
     return Drawing("energies", "Stored energies", caption, figure)
@@ -219,13 +219,13 @@ def _stacked(replay: Replay, whole: Balance, part: Replay, said: str) -> Drawing
 
 def _exchanged(replay: Replay, whole: Balance) -> Drawing:
     times, residual = replay.times, whole.residual
-    part, said = shown_part(replay, _CYCLES)
-    kept = (times >= part.times[0]) & (times <= part.times[-1])
+    part, period = shown_part(replay, _CYCLES)
+    inside = (times >= part.times[0]) & (times <= part.times[-1])
     figure, (axes, rest) = panels(2, 1, height=2.3)
     exchanged = _largest(whole.exchanged)
     for name, values in exchanged.items():
-        axes.plot(*thinned(times[kept], values[kept]), label=name)
-    axes.plot(*thinned(times[kept], whole.change[kept]), "--", color="black", label="change of the total")
+        axes.plot(*thinned(times[inside], values[inside]), label=name)
+    axes.plot(*thinned(times[inside], whole.change[inside]), "--", color="black", label="change of the total")
     axes.set_ylabel(labelled("energy since the start", "J"))
     above(axes)
     rest.plot(*thinned(times, residual), color=GREY)
@@ -241,7 +241,7 @@ def _exchanged(replay: Replay, whole: Balance) -> Drawing:
         paths = " Created at paths: joints get more work from them than muscle-tendon units give, or less, as the "
         paths += "pennation factor scales a path's length and not its moment."
     caption = (
-        f"What came into the model since the start, losses negative, over {said}; at the end: {ends or 'nothing'}; "
+        f"What came into the model since the start, losses negative, over {period}; at the end: {ends or 'nothing'}; "
         f"the total changed by {whole.change[-1]:+.4g} J. Residual, which is what these do not explain (errors of the "
         f"time step, and parts that take energy without saying so): {residual[-1]:+.3g} J at the end, at most "
         f"{largest:.3g} J{share}.{paths}"

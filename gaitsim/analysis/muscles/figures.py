@@ -109,16 +109,16 @@ def _one(replay: Replay, address: str) -> Muscle:
 
 
 def _over_time(replay: Replay, address: str) -> Drawing:
-    part, said = shown_part(replay, address=address)
+    part, period = shown_part(replay, address=address)
     muscle, times = _one(replay, address), replay.times
-    kept = (times >= part.times[0]) & (times <= part.times[-1])
+    inside = (times >= part.times[0]) & (times <= part.times[-1])
     figure, (drive, force, length) = panels(3, 1, height=1.7, share=True)
     for name, values, line in (("stimulation", muscle.stimulation, "--"), ("activation", muscle.activation, "-")):
-        drive.plot(*thinned(times[kept], np.clip(values[kept], -0.05, 1.5)), line, label=name)
+        drive.plot(*thinned(times[inside], np.clip(values[inside], -0.05, 1.5)), line, label=name)
     drive.set_ylabel(labelled("drive", "1"))
-    force.plot(*thinned(times[kept], muscle.force[kept]), color=PALETTE[1])
+    force.plot(*thinned(times[inside], muscle.force[inside]), color=PALETTE[1])
     force.set_ylabel(labelled("force", "N"))
-    length.plot(*thinned(times[kept], 100 * muscle.fiber_length[kept]), color=PALETTE[2], label="fiber length")
+    length.plot(*thinned(times[inside], 100 * muscle.fiber_length[inside]), color=PALETTE[2], label="fiber length")
     optimal = 100 * muscle.optimal_fiber_length
     length.axhline(optimal, color=GREY, linestyle=":", linewidth=1, label="optimal length")
     length.set_ylabel(labelled("length", "cm"))
@@ -128,10 +128,10 @@ def _over_time(replay: Replay, address: str) -> Drawing:
     above(drive)
     above(length)
     grey = " Grey: stance." if any(shaded) else ""
-    clipped = " Stimulation is drawn up to 1.5." if np.nanmax(muscle.stimulation[kept]) > 1.5 else ""
+    clipped = " Stimulation is drawn up to 1.5." if np.nanmax(muscle.stimulation[inside]) > 1.5 else ""
     caption = (
-        f"{address} over {said}: stimulation as it arrives (the sum of all senders, before it is limited) and "
-        f"activation, force in N (at most {muscle.force[kept].max():.4g} N), fiber length in cm.{grey}{clipped}"
+        f"{address} over {period}: stimulation as it arrives (the sum of all senders, before it is limited) and "
+        f"activation, force in N (at most {muscle.force[inside].max():.4g} N), fiber length in cm.{grey}{clipped}"
     )
     return Drawing(f"muscle_{address}", f"Muscle {address}", caption, figure)
 

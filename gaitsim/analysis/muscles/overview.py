@@ -59,7 +59,7 @@ def _groups(replay: Replay) -> dict[str, list[str]]:
 
 def _overview(replay: Replay, muscles: list[str], name: str, title: str, what: str, draw: _Draw) -> Drawing:
     """A panel for each muscle, over the last cycles of its leg."""
-    part, said = shown_part(replay, address=muscles[0])
+    part, period = shown_part(replay, address=muscles[0])
     figure, axes = panels(-(-len(muscles) // _COLUMNS), _COLUMNS, height=1.5, share=True)
     shaded = False
     for panel, muscle in zip(axes, muscles, strict=False):
@@ -75,7 +75,7 @@ def _overview(replay: Replay, muscles: list[str], name: str, title: str, what: s
     figure.supxlabel(labelled("time", "s"), fontsize=FONT)
     figure.supylabel(labelled("value", "1"), fontsize=FONT)
     caption = (
-        f"{', '.join(muscles)} over {said}: {what}.{' Grey: stance.' if shaded else ''} A muscle's own figures come "
+        f"{', '.join(muscles)} over {period}: {what}.{' Grey: stance.' if shaded else ''} A muscle's own figures come "
         f"with --plot {muscles[0]}."
     )
     return Drawing(name, title, caption, figure)

@@ -102,8 +102,8 @@ def shown_part(replay: Replay, count: int = 3, address: str = "") -> tuple[Repla
     if span is None or replay.outcome.status == "failed":
         return replay, "the whole run"
     cycles = min(count, len(_touchdowns_of(replay, address)) - 1)
-    said = f"the last {cycles} cycles" if cycles > 1 else "the last cycle"
-    return replay.between(*span), f"{said} from touchdown to touchdown"
+    period = f"the last {cycles} cycles" if cycles > 1 else "the last cycle"
+    return replay.between(*span), f"{period} from touchdown to touchdown"
 
 
 def _touchdowns_of(replay: Replay, address: str) -> Sequence[int]:
@@ -134,6 +134,6 @@ def thinned(times: Floats, values: Floats, limit: int = 2400) -> tuple[Floats, F
     if len(times) <= limit:
         return times, values
     stretches = np.array_split(np.arange(len(times)), limit // 2)
-    kept = sorted({int(i) for s in stretches for i in (s[np.argmin(values[s])], s[np.argmax(values[s])])})
-    chosen = np.array([0, *[i for i in kept if 0 < i < len(times) - 1], len(times) - 1])
+    extremes = sorted({int(i) for s in stretches for i in (s[np.argmin(values[s])], s[np.argmax(values[s])])})
+    chosen = np.array([0, *[i for i in extremes if 0 < i < len(times) - 1], len(times) - 1])
     return times[chosen], values[chosen]

@@ -81,8 +81,8 @@ class Replay:
         """The same run, restricted to the instants from `begin` to `end` in s."""
         whole = self.trajectory
         low, high = -np.inf if begin is None else begin, np.inf if end is None else end
-        kept = (whole.times >= low - 1e-12) & (whole.times <= high + 1e-12)
-        part = replace(whole, times=whole.times[kept], values=whole.values[kept])
+        inside = (whole.times >= low - 1e-12) & (whole.times <= high + 1e-12)
+        part = replace(whole, times=whole.times[inside], values=whole.values[inside])
         return replace(self, outcome=replace(self.outcome, trajectory=part))
 
     def counted_from(self, begin: float) -> Replay:

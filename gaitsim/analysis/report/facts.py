@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from gaitsim.analysis.drawings.style import labelled, shown_unit
-from gaitsim.analysis.drawings.table import Table, shown
+from gaitsim.analysis.drawings.table import Table, formatted
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.searches.convergence import tuned_in
 from gaitsim.analysis.searches.draws import DrawResults, draws_of, summaries
@@ -47,11 +47,16 @@ def metrics_table(replays: Sequence[Replay]) -> Table:
     units = {name: unit for replay in replays for name, unit in replay.model.metrics.items()}
     names = dict.fromkeys(name for replay in replays for name in replay.outcome.metrics)
     rows = [
-        (name, *(shown(replay.outcome.metrics.get(name)) for replay in replays), shown_unit(units[name]), docs[name])
+        (
+            name,
+            *(formatted(replay.outcome.metrics.get(name)) for replay in replays),
+            shown_unit(units[name]),
+            docs[name],
+        )
         for name in names
     ]
     if any(replay.outcome.score is not None for replay in replays):
-        scores = (shown(replay.outcome.score) for replay in replays)
+        scores = (formatted(replay.outcome.score) for replay in replays)
         rows.append(("score", *scores, shown_unit("1"), "The cost that a search lowers."))
     values = ("value",) if len(replays) == 1 else tuple(replay.label for replay in replays)
     return Table(("metric", *values, "unit", "meaning"), tuple(rows), frozenset(range(1, len(replays) + 1)))
@@ -68,8 +73,8 @@ def tuned_table(replay: Replay) -> Table | None:
         row = known.get(free.address)
         found = (row.start, row.best, row.mean, row.std) if row else ()
         of = free.unit.of
-        numbers = (shown(n) for n in (of(free.low), of(free.high), *found))
-        rows.append((free.address, shown(of(free.start)), shown_unit(free.unit.text), *numbers))
+        numbers = (formatted(n) for n in (of(free.low), of(free.high), *found))
+        rows.append((free.address, formatted(of(free.start)), shown_unit(free.unit.text), *numbers))
     width = len(columns) if known else 5
     filled = tuple((*row, *["–"] * width)[:width] for row in rows)
     return Table(columns[:width], filled, frozenset(range(1, width)) - {2})
@@ -82,29 +87,33 @@ def study_table(replay: Replay) -> Table | None:
         The table; None if it cannot be read.
     """
     try:
-        study, drawn = study_of(replay), draws_of(replay)
+        study, draws = study_of(replay), draws_of(replay)
     except BadResult:
         return None
-    if drawn is not None:
-        return _draws_table(drawn, replay.model.metrics)
+    if draws is not None:
+        return _draws_table(draws, replay.model.metrics)
     if study is None:
         return None
     names = [name for name in replay.model.metrics if np.isfinite(study.column(name)).any()]
     units = replay.model.metrics
     columns = (*study.varied, "status", *(labelled(name, units[name]) for name in names))
     rows = tuple(
-        (*(row.get(address, "–") for address in study.varied), status, *(shown(metrics.get(name)) for name in names))
+        (
+            *(row.get(address, "–") for address in study.varied),
+            status,
+            *(formatted(metrics.get(name)) for name in names),
+        )
         for row, status, metrics in zip(study.rows, study.statuses, study.metrics, strict=True)
     )
     first = len(study.varied)
     return Table(columns, rows, frozenset(range(len(columns))) - {0, first})
 
 
-def _draws_table(drawn: DrawResults, units: Mapping[str, str]) -> Table:
+def _draws_table(draws: DrawResults, units: Mapping[str, str]) -> Table:
     """Every metric over all draws: mean, minimum, maximum."""
     rows = tuple(
-        (each.name, shown(each.mean), shown(each.least), shown(each.greatest), shown_unit(units[each.name]))
-        for each in summaries(drawn.metrics)
+        (each.name, formatted(each.mean), formatted(each.least), formatted(each.greatest), shown_unit(units[each.name]))
+        for each in summaries(draws.metrics)
     )
     return Table(("metric", "mean", "least", "greatest", "unit"), rows, frozenset({1, 2, 3}))
 
@@ -114,7 +123,7 @@ def origin(replay: Replay) -> list[tuple[str, str]]:
     manifest = replay.manifest or provenance(replay.path.parent)
     commit = manifest.get("commit")
     simulate, search = replay.model.simulate, manifest.get("search", {})
-    said = [
+    entries = [
         ("Result", str(replay.folder) if replay.folder else f"none kept; {replay.path} was run for this report"),
         ("Made", f"{manifest.get('created', '–')}, {manifest.get('kind', 'analyze')}"),
         ("Mode", str(manifest.get("mode", "rapid"))),
@@ -124,13 +133,16 @@ def origin(replay: Replay) -> list[tuple[str, str]]:
         ("Seed", str(search.get("seed", ""))),
         ("Search", ", ".join(f"{key} {value}" for key, value in search.items() if key != "seed")),
         ("Evaluations", _evaluations(manifest)),
-        ("Simulation", f"{simulate.duration:g} s in steps of {shown(1000 * simulate.step)} ms, {simulate.integrator}"),
+        (
+            "Simulation",
+            f"{simulate.duration:g} s in steps of {formatted(1000 * simulate.step)} ms, {simulate.integrator}",
+        ),
         ("gaitsim", str(manifest.get("gaitsim", "–"))),
         ("Versions", ", ".join(f"{name} {version}" for name, version in manifest.get("versions", {}).items())),
         ("Machine", ", ".join(str(word) for word in manifest.get("machine", {}).values())),
         ("Digest", str(manifest.get("digest", ""))),
     ]
-    return [(term, words) for term, words in said if words]
+    return [(term, text) for term, text in entries if text]
 
 
 def _commit(commit: Mapping[str, Any] | None) -> str:
@@ -232,7 +244,7 @@ def _parameters(rows: Sequence[Mapping[str, Any]], owner: str) -> Table:
     cells = tuple(
         (
             row["address"].removeprefix(f"{owner}."),
-            shown(row["value"]),
+            formatted(row["value"]),
             shown_unit(row["unit"]),
             row.get("expression") or row.get("source") or "–",
         )

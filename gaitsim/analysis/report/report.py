@@ -131,17 +131,17 @@ def _about(replay: Replay) -> str:
     from gaitsim.text.document import ScalarNode
 
     try:
-        said = read_spec(replay.folder / "spec.yaml" if replay.folder else replay.path).entries.get("about")
+        about = read_spec(replay.folder / "spec.yaml" if replay.folder else replay.path).entries.get("about")
     except (GaitsimError, OSError):
         return ""
-    return str(said.value) if isinstance(said, ScalarNode) else ""
+    return str(about.value) if isinstance(about, ScalarNode) else ""
 
 
 def _picture(drawing: Drawing) -> Picture:
-    return Picture(drawing.name, drawing.title, drawing.caption, _drawn(drawing), _drawn(drawing, _NARROW))
+    return Picture(drawing.name, drawing.title, drawing.caption, _image(drawing), _image(drawing, _NARROW))
 
 
-def _drawn(drawing: Drawing, width: float = COLUMN) -> str:
+def _image(drawing: Drawing, width: float = COLUMN) -> str:
     """The figure at a width in inches, as a data URL. The same figure gives the same bytes."""
     import matplotlib as mpl
 

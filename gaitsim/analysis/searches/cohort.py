@@ -77,10 +77,10 @@ def _endings(grid: _Grid) -> Drawing:
         across, along = zip(*at, strict=True)
         label = f"{ending} ({len(at)})"
         axes.scatter(across, along, marker="s", s=60, color=_COLOURS.get(ending, PALETTE[6]), label=label)
-    axes.set_yticks(range(count), [_said(body[0], grid.own) for body in grid.bodies], fontsize=FONT - 3)
+    axes.set_yticks(range(count), [_row_label(body[0], grid.own) for body in grid.bodies], fontsize=FONT - 3)
     axes.set_ylim(count - 0.4, -0.6)
     axes.set_xlim(-0.6, len(grid.devices) - 0.4)
-    devices = [", ".join(_words(row, grid.varied)) for row in grid.devices]
+    devices = [", ".join(_values_text(row, grid.varied)) for row in grid.devices]
     axes.set_xticks(range(len(devices)), devices, fontsize=FONT - 3)
     axes.set_xlabel(", ".join(grid.varied))
     above(axes)
@@ -119,8 +119,8 @@ def _points(figure: Figure, axes: Axes, grid: _Grid, metric: str, at: Floats) ->
     if shade is None:
         axes.plot(at, values, "o", markersize=4)
         return
-    drawn = axes.scatter(at, values, c=shade[0], s=24, cmap="viridis", zorder=3)
-    figure.colorbar(drawn, ax=axes, label=labelled(grid.own[1], shade[1]))
+    points = axes.scatter(at, values, c=shade[0], s=24, cmap="viridis", zorder=3)
+    figure.colorbar(points, ax=axes, label=labelled(grid.own[1], shade[1]))
 
 
 def _lines(figure: Figure, axes: Axes, grid: _Grid, metric: str, at: Floats) -> None:
@@ -154,9 +154,9 @@ def _lines(figure: Figure, axes: Axes, grid: _Grid, metric: str, at: Floats) -> 
         figure.colorbar(ScalarMappable(scale, "viridis"), ax=axes, label=labelled(grid.own[0], shade[1]))
 
 
-def _said(row: Outline, own: Sequence[str]) -> str:
-    return ", ".join([row.body, *_words(row, own)])
+def _row_label(row: Outline, own: Sequence[str]) -> str:
+    return ", ".join([row.body, *_values_text(row, own)])
 
 
-def _words(row: Outline, addresses: Sequence[str]) -> list[str]:
+def _values_text(row: Outline, addresses: Sequence[str]) -> list[str]:
     return [row.settings.get(address, "") for address in addresses]

@@ -198,10 +198,10 @@ def _within_bounds(tuned: list[TunedParameter]) -> Drawing:
     axes.set_xlabel("place between the bounds (0: lower, 1: upper)")
     above(axes)
     edge = [t.address for t in tuned if min(t.share(t.best), 1 - t.share(t.best)) < 0.01]
-    words = f" At a bound: {', '.join(edge)}." if edge else ""
+    bounds = f" At a bound: {', '.join(edge)}." if edge else ""
     caption = (
         "Tuned numbers within the bounds of the search, which stand below the ends of the bars; the best value stands "
-        f"on the right. Mean and standard deviation: the better half of the last generation.{words}"
+        f"on the right. Mean and standard deviation: the better half of the last generation.{bounds}"
     )
     return Drawing("tuned_parameters", "Tuned parameters within their bounds", caption, figure)
 

@@ -53,7 +53,7 @@ class DrawResults:
         return sum(status == "completed" for status in self.statuses)
 
     @property
-    def words(self) -> str:
+    def summary(self) -> str:
         """How many draws completed, and what the draws are, in words."""
         changed = f"every tuned value changed by up to {100 * self.within:g} % (uniform, seed {self.seed})"
         return f"{self.completed} of {len(self.statuses)} draws completed; in each, {changed}"
@@ -92,35 +92,35 @@ def draws_of(replay: Replay) -> DrawResults | None:
 
 def draws_figures(replay: Replay) -> list[Drawing]:
     """One figure with a point for each draw, for the main metric of each measure; none for other results."""
-    drawn = draws_of(replay)
-    if drawn is None:
+    draws = draws_of(replay)
+    if draws is None:
         return []
-    names = [n for n in headline_metrics(replay.model.metrics) if np.isfinite(drawn.column(n)).any()]
+    names = [n for n in headline_metrics(replay.model.metrics) if np.isfinite(draws.column(n)).any()]
     if not names:
         return []
     columns = min(_COLUMNS, len(names))
     figure, grid = panels(math.ceil(len(names) / columns), columns, height=_HEIGHT)
     for axes, name in zip(grid, names, strict=False):
-        _strip(axes, drawn, drawn.column(name))
+        _strip(axes, draws, draws.column(name))
         axes.set_xlabel(labelled(name, replay.model.metrics[name]))
     for axes in grid[len(names) :]:
         axes.set_visible(False)
     for axes in grid[::columns]:
         axes.set_ylabel("draw")
-    lost = "Crosses: stopped before the end. " if "stopped" in drawn.statuses else ""
-    lost += "What failed has no point. " if "failed" in drawn.statuses else ""
-    caption = f"{drawn.words}. One point a draw, at its number. {lost}Grey line: mean of all draws."
+    lost = "Crosses: stopped before the end. " if "stopped" in draws.statuses else ""
+    lost += "What failed has no point. " if "failed" in draws.statuses else ""
+    caption = f"{draws.summary}. One point a draw, at its number. {lost}Grey line: mean of all draws."
     return [Drawing("draws", "Every tuned value a little different", caption, figure)]
 
 
-def _strip(axes: Axes, drawn: DrawResults, values: Floats) -> None:
+def _strip(axes: Axes, draws: DrawResults, values: Floats) -> None:
     """The values from left to right by the number of the draw."""
     from matplotlib.ticker import MaxNLocator
 
-    numbers, kept = np.arange(1, values.size + 1), np.array(drawn.statuses) == "completed"
+    numbers, completed = np.arange(1, values.size + 1), np.array(draws.statuses) == "completed"
     axes.axvline(float(np.nanmean(values)), color=GREY, linewidth=1)
-    axes.plot(values[kept], numbers[kept], "o", color=PALETTE[0], markersize=3)
-    axes.plot(values[~kept], numbers[~kept], "x", color=PALETTE[1], markersize=4)
+    axes.plot(values[completed], numbers[completed], "o", color=PALETTE[0], markersize=3)
+    axes.plot(values[~completed], numbers[~completed], "x", color=PALETTE[1], markersize=4)
     axes.set_ylim(0, values.size + 1)
     axes.locator_params(axis="x", nbins=4)
     axes.ticklabel_format(axis="x", scilimits=(-3, 4), useMathText=True)

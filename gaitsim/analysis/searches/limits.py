@@ -47,12 +47,12 @@ def limit_figures(replay: Replay) -> list[Drawing]:
         return []
     across, values = column(str(asked["over"]), "--over")
     at = places(values)
-    drawn = []
+    drawings = []
     for text in asked["vary"]:
         address, ends = span(text)
         found = _found(replay, asked, address, ends.first, across, values)
-        drawn.append(_figure(address, ends.unit, across, found, at))
-    return drawn
+        drawings.append(_figure(address, ends.unit, across, found, at))
+    return drawings
 
 
 def _found(

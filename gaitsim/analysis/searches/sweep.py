@@ -110,15 +110,15 @@ def _figure(replay: Replay, study: Study, measure: str, names: list[str], units:
             axes.plot(*known.points, "s", color=PALETTE[2], markerfacecolor="none", label="reference", zorder=4)
             sources[known.source] = None
         axes.set_ylabel(labelled(_short(name, measure), units[name]))
-    _name_horizontal(panel[-1], study, across, at, unit, words=found is None)
+    _name_horizontal(panel[-1], study, across, at, unit, settings=found is None)
     _mark_lost(panel[-1], study, at)
     if len(panel[0].get_legend_handles_labels()[0]) > 1:
         above(panel[0])
     lost = [status for status in study.statuses if status != "completed"]
     how = ", ".join(sorted(set(lost)))
-    words = f" {len(lost)} of the {len(study.rows)} rows did not complete (×: {how})." if lost else ""
+    losses = f" {len(lost)} of the {len(study.rows)} rows did not complete (×: {how})." if lost else ""
     source = f" Squares: {'; '.join(sources)}." if sources else ""
-    caption = f"{', '.join(names)} over {', '.join(study.varied)}, {len(study.rows)} rows.{words}{source}"
+    caption = f"{', '.join(names)} over {', '.join(study.varied)}, {len(study.rows)} rows.{losses}{source}"
     return Drawing(f"sweep_{measure}", f"{measure} over {across}", caption, figure)
 
 
@@ -139,8 +139,8 @@ def _lines(axes: Axes, study: Study, at: Floats, values: Floats) -> None:
         axes.plot(at[mine][order], values[mine][order], style, markersize=4, label=label)
 
 
-def _name_horizontal(axes: Axes, study: Study, across: str, at: Floats, unit: str, words: bool) -> None:
-    if words:
+def _name_horizontal(axes: Axes, study: Study, across: str, at: Floats, unit: str, settings: bool) -> None:
+    if settings:
         texts = [", ".join(row.get(a, "–") for a in study.varied) for row in study.rows]
         axes.set_xticks(at, texts, rotation=30, ha="right")
         axes.set_xlabel(", ".join(study.varied))

@@ -45,9 +45,9 @@ def _outputs(replay: Replay, kind: str, names: Sequence[str]) -> Signals:
 def _figures(replay: Replay, name: str, title: str, signals: Signals) -> list[Drawing]:
     contact = next((p.address for p in replay.model.parts if p.type.kind == "contact" and side_of(p.address)), "")
     leg = on_side(contact, "r")
-    part, said = shown_part(replay, address=leg)
+    part, period = shown_part(replay, address=leg)
     if len(part.times) < 2:
-        part, said = replay, "the whole run"
+        part, period = replay, "the whole run"
     groups = list(_panels(signals))
     pages = [groups[i : i + _PANELS] for i in range(0, len(groups), _PANELS)]
     found = []
@@ -66,7 +66,7 @@ def _figures(replay: Replay, name: str, title: str, signals: Signals) -> list[Dr
         axes[-1].set_xlabel(labelled("time", "s"))
         of = f" ({number} of {len(pages)})" if len(pages) > 1 else ""
         listed = ", ".join(address for group in page for address, _ in group)
-        caption = f"{listed} over {said}.{' Grey: stance.' if shaded else ''}"
+        caption = f"{listed} over {period}.{' Grey: stance.' if shaded else ''}"
         found.append(Drawing(f"{name}_{number}" if len(pages) > 1 else name, title + of, caption, figure))
     return found
 

@@ -53,11 +53,11 @@ def label_of(replays: Sequence[Replay], replay: Replay, signal: Signal) -> str:
 
 def name_vertical(axes: Axes, replays: Sequence[Replay], group: Sequence[Signal]) -> None:
     first = group[0]
-    words = {signal.address.rpartition(".")[2] for signal in group}
+    names = {signal.address.rpartition(".")[2] for signal in group}
     if len(group) == 1:
         name = first.address
     else:
-        name = words.pop().replace("_", " ") if len(words) == 1 else f"{_owner(group)} {style.quantity(first.unit)}"
+        name = names.pop().replace("_", " ") if len(names) == 1 else f"{_owner(group)} {style.quantity(first.unit)}"
     axes.set_ylabel("\n".join(_wrapped(name)) + f"\n({style.shown_unit(first.unit)})", fontsize=style.FONT)
     if first.levels:
         axes.set_yticks(range(len(first.levels)), first.levels)
@@ -109,10 +109,10 @@ def finish(figure: Figure, first: Axes, replays: Sequence[Replay], title: str) -
 
 
 def caption_of(replays: Sequence[Replay], signals: Sequence[Signal], text: str) -> str:
-    words = [f"{signal.address} ({style.shown_unit(signal.unit)}): {signal.doc}" for signal in signals]
-    words += [f"{label} has no such signal." for label in (runs_without(replays, text) if text else ())]
-    words += [f"{replay.label} {replay.ending}." for replay in replays if replay.ending]
-    return " ".join(words)
+    sentences = [f"{signal.address} ({style.shown_unit(signal.unit)}): {signal.doc}" for signal in signals]
+    sentences += [f"{label} has no such signal." for label in (runs_without(replays, text) if text else ())]
+    sentences += [f"{replay.label} {replay.ending}." for replay in replays if replay.ending]
+    return " ".join(sentences)
 
 
 def file_name(text: str, rest: str, number: int) -> str:

@@ -102,6 +102,6 @@ def _examples(model: Model, text: str) -> str:
 
 
 def _listed(addresses: Sequence[str]) -> str:
-    shown = ", ".join(addresses[:_SHOWN])
+    first = ", ".join(addresses[:_SHOWN])
     more = len(addresses) - _SHOWN
-    return f"{shown} and {more} more" if more > 0 else shown
+    return f"{first} and {more} more" if more > 0 else first

@@ -50,7 +50,7 @@ def signal_overlays(replays: Sequence[Replay]) -> list[Drawing]:
 
     Completed runs with cycles are drawn over their last cycles, from touchdown on.
     """
-    drawn, said = _last_cycles(replays)
+    cycles, period = _last_cycles(replays)
     walking = all(two_legs(replay) for replay in replays)
     drawings = []
     for name, (title, kinds, wanted) in _OVERVIEW.items():
@@ -62,7 +62,7 @@ def signal_overlays(replays: Sequence[Replay]) -> list[Drawing]:
                 if owner in mine and (not wanted or word in wanted):
                     found.setdefault(signal.address, signal)
         if found and len(found) <= _MANY and not (walking and name in ("ground", "muscles")):
-            drawings += _over_time(drawn, list(found.values()), name, f"{title}{said}", "")
+            drawings += _over_time(cycles, list(found.values()), name, f"{title}{period}", "")
     return drawings
 
 
@@ -91,9 +91,9 @@ def _over_time(replays: Sequence[Replay], signals: Sequence[Signal], name: str, 
 def _time_panel(axes: Axes, replays: Sequence[Replay], group: Sequence[Signal]) -> None:
     for look, replay, signal in lines_of(replays, group):
         times, values = thinned(replay.times, values_of(replay, signal))
-        drawn = "steps-post" if signal.levels else "default"
+        drawstyle = "steps-post" if signal.levels else "default"
         label = label_of(replays, replay, signal)
-        axes.plot(times, values, **look, linewidth=1.1, drawstyle=drawn, label=label)
+        axes.plot(times, values, **look, linewidth=1.1, drawstyle=drawstyle, label=label)
         if replay.ending and replay.reaches_end:
             axes.plot(times[-1:], values[-1:], **look, marker="x", markersize=6)
     axes.margins(x=0.01)

@@ -52,14 +52,14 @@ def return_map(replays: Sequence[Replay], text: str) -> Drawing:
         move = "simulate longer, such as --set 'simulate.duration=20 s', or name another signal"
         raise TooFewEvents(f"{text}: {rule}; {move}.")
     figure, (axes,) = style.panels(height=4.6)
-    words, fixed = [], []
+    summaries, fixed = [], []
     for number, (replay, events) in enumerate(runs):
         if events.size >= _EVENTS:
             fixed.append(fixed_point(events))
             _map_points(axes, events, fixed[-1], number, replay.label)
-            words.append(f"{replay.label}: {events.size} {what}{_fixed_words(fixed[-1], signal.unit)}")
+            summaries.append(f"{replay.label}: {events.size} {what}{_fixed_words(fixed[-1], signal.unit)}")
         else:
-            words.append(f"{replay.label}: too few {what} ({events.size})")
+            summaries.append(f"{replay.label}: too few {what} ({events.size})")
     _square(axes, np.concatenate([events for _, events in runs if events.size >= _EVENTS]))
     axes.set_xlabel(style.labelled(f"{signal.address}, {_ONE[what]} n", signal.unit))
     axes.set_ylabel(style.labelled(f"{signal.address}, {_ONE[what]} n + 1", signal.unit))
@@ -69,7 +69,7 @@ def return_map(replays: Sequence[Replay], text: str) -> Drawing:
     finish(figure, axes, replays, title)
     if len(replays) == 1:
         style.legend(axes)
-    caption = f"{signal.address} ({style.shown_unit(signal.unit)}): {signal.doc} {'; '.join(words)}."
+    caption = f"{signal.address} ({style.shown_unit(signal.unit)}): {signal.doc} {'; '.join(summaries)}."
     return Drawing(file_name(text, ".return_map", 1), title, caption, figure)
 
 
