@@ -62,7 +62,7 @@ def follow(
     rows: NDArray[np.int64],
     spacing: float,
     aspect: float,
-    words: tuple[float, float] = (0, 0),
+    covered: tuple[float, float] = (0, 0),
     view: str = "side",
 ) -> Views:
     """The views of some instants.
@@ -72,11 +72,11 @@ def follow(
         rows: The instants.
         spacing: The time between them, in s.
         aspect: Width over height of the picture.
-        words: The shares of the height that texts cover, above and below; the body stays between them.
+        covered: The shares of the height that texts cover, above and below; the body stays between them.
         view: A name in `VIEWS`.
     """
     right, away = _axes(view)
-    above, below = max(_ABOVE, words[0]), max(_BELOW, words[1])
+    above, below = max(_ABOVE, covered[0]), max(_BELOW, covered[1])
     centers, lows, highs = np.zeros((len(rows), 3)), np.zeros((len(rows), 3)), np.zeros((len(rows), 3))
     for k, row in enumerate(rows):
         posture.take(int(row))
@@ -131,8 +131,8 @@ def _scale(posture: Posture, rows: NDArray[np.int64], height: float) -> float:
         for signal in (force.up, force.forward, force.left)
         if signal is not None
     ]
-    shown = posture.trajectory.values[rows][:, columns]
-    largest = float(np.max(np.abs(shown), initial=0.0))
+    values = posture.trajectory.values[rows][:, columns]
+    largest = float(np.max(np.abs(values), initial=0.0))
     if largest <= 0:
         return 1000.0
     least = largest / max(_ROOM * height, 0.01)

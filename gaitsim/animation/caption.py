@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaitsim.animation import colours
-from gaitsim.animation.lettering import Words, write
+from gaitsim.animation.lettering import Label, write
 
 Pixels = NDArray[np.uint8]
 
@@ -42,23 +42,23 @@ class Caption:
         """Write the texts on a picture, at a time in s."""
         picture, font = np.array(picture), self.font
         edge = 0.7 * font
-        words = [
-            Words(self.name, edge, edge, font, "la", bold=True),
-            Words(f"t = {time:.3f} s", edge, edge + 1.5 * font, font, "la"),
-            Words(speed_words(self.speed), edge, edge + 3.0 * font, font, "la"),
+        labels = [
+            Label(self.name, edge, edge, font, "la", bold=True),
+            Label(f"t = {time:.3f} s", edge, edge + 1.5 * font, font, "la"),
+            Label(speed_words(self.speed), edge, edge + 3.0 * font, font, "la"),
         ]
-        said, begin = self.ending
-        if said and time >= begin:
-            words.append(Words(said, self.width - edge, edge, font, "ra", bold=True))
+        ending, begin = self.ending
+        if ending and time >= begin:
+            labels.append(Label(ending, self.width - edge, edge, font, "ra", bold=True))
         row = self.height - edge - 0.5 * font
         if self.newtons is not None:
-            words.append(self._arrow(picture, row, self.newtons))
+            labels.append(self._arrow(picture, row, self.newtons))
             row -= 1.6 * font
         if self.muscles:
-            words += self._bar(picture, row)
-        return write(picture, words)
+            labels += self._bar(picture, row)
+        return write(picture, labels)
 
-    def _arrow(self, picture: Pixels, row: float, newtons: float) -> Words:
+    def _arrow(self, picture: Pixels, row: float, newtons: float) -> Label:
         """The scale of arrows: the length of a round number of newtons."""
         force = round_below(newtons * 0.2 * self.width / self.metre)
         left, right = round(0.7 * self.font), round(0.7 * self.font + force / newtons * self.metre)
@@ -69,17 +69,17 @@ class Caption:
             reach = round(0.6 * step)
             picture[middle - reach : middle + reach + 1, right - step] = colour
         text = f"{force / 1000:g} kN" if force >= 1000 else f"{force:g} N"
-        return Words(f"{text} of ground force", right + 0.5 * self.font, row, self.font, "lm")
+        return Label(f"{text} of ground force", right + 0.5 * self.font, row, self.font, "lm")
 
-    def _bar(self, picture: Pixels, row: float) -> list[Words]:
+    def _bar(self, picture: Pixels, row: float) -> list[Label]:
         """The colours of activation from 0 to 1."""
         left, font = 0.7 * self.font, self.font
         begin, end = round(left + font), round(left + font + 0.2 * self.width)
         half = round(0.35 * font)
         picture[round(row) - half : round(row) + half + 1, begin:end] = colours.scale(end - begin)
         return [
-            Words("0", left, row, font, "lm"),
-            Words("1  activation", end + 0.3 * font, row, font, "lm"),
+            Label("0", left, row, font, "lm"),
+            Label("1  activation", end + 0.3 * font, row, font, "lm"),
         ]
 
 

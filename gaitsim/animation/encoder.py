@@ -33,7 +33,7 @@ class Encoder:
         self._sample = sample
         self._draft = path.with_name(f"{path.stem}.partial{path.suffix}")
         self._process: Any = None
-        self._said: IO[bytes] | None = None
+        self._messages: IO[bytes] | None = None
         self._palette: Path | None = None
 
     def __enter__(self) -> Encoder:
@@ -44,10 +44,10 @@ class Encoder:
         """
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            self._said = tempfile.TemporaryFile()
+            self._messages = tempfile.TemporaryFile()
             command = [_program(), "-y", "-loglevel", "error", *self._input(), *self._output(), str(self._draft)]
             self._process = subprocess.Popen(
-                command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._said
+                command, stdin=subprocess.PIPE, stdout=subprocess.DEVNULL, stderr=self._messages
             )
         except OSError as error:
             raise CannotAnimate(f"{self.path}: the video cannot be written: {error.strerror}.") from error
@@ -81,14 +81,14 @@ class Encoder:
             self._draft.unlink(missing_ok=True)
             if self._palette is not None:
                 self._palette.unlink(missing_ok=True)
-            if self._said is not None:
-                self._said.close()
+            if self._messages is not None:
+                self._messages.close()
 
     def _reason(self) -> str:
         self._process.wait()
-        assert self._said is not None
-        self._said.seek(0)
-        lines = self._said.read().decode(errors="replace").strip().splitlines()
+        assert self._messages is not None
+        self._messages.seek(0)
+        lines = self._messages.read().decode(errors="replace").strip().splitlines()
         message = next(
             (line for line in lines if "No space left" in line), lines[-1] if lines else "ffmpeg ended early"
         )

@@ -16,7 +16,7 @@ INK = (30, 34, 40)
 
 
 @dataclass(frozen=True)
-class Words:
+class Label:
     """A line of text. Its `anchor` is at a position in pixels from the left and the top; its size is in pixels.
 
     Attributes:
@@ -32,12 +32,12 @@ class Words:
     colour: tuple[int, int, int] = INK
 
 
-def write(pixels: Pixels, words: Sequence[Words]) -> Pixels:
+def write(pixels: Pixels, labels: Sequence[Label]) -> Pixels:
     """Draw lines of text on a picture.
 
     Args:
         pixels: Height x width x 3 values.
-        words: The lines of text.
+        labels: The lines of text.
 
     Returns:
         A copy of the picture with the text on it.
@@ -46,7 +46,7 @@ def write(pixels: Pixels, words: Sequence[Words]) -> Pixels:
 
     image = Image.fromarray(np.ascontiguousarray(pixels))
     draw = ImageDraw.Draw(image)
-    for each in words:
+    for each in labels:
         font = _font(each.size, each.bold)
         draw.text((each.left, each.top), each.text, each.colour, font, anchor=each.anchor)
     return np.asarray(image)

@@ -106,9 +106,9 @@ class OpenGL:
             self._context = importlib.import_module(f"mujoco.{self._name}").GLContext(*self._size)
             self._context.make_current()
         except Exception as error:
-            said = " ".join(str(error).split()) or type(error).__name__
+            reason = " ".join(str(error).split()) or type(error).__name__
             move = "try MUJOCO_GL=osmesa with the system package libosmesa6"
-            raise NoOpenGL(f"no video: OpenGL ({self._name}) does not start ({said}); {move}.") from error
+            raise NoOpenGL(f"no video: OpenGL ({self._name}) does not start ({reason}); {move}.") from error
         return self
 
     def painter(self, model: Any) -> Any:

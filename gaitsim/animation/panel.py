@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaitsim.analysis.drawings.style import PALETTE, is_constant, place_exponent, shown_unit, vertical_limits
-from gaitsim.animation.lettering import Words, write
+from gaitsim.animation.lettering import Label, write
 from gaitsim.model import Signal
 from gaitsim.simulation.outcome import Trajectory
 
@@ -74,19 +74,19 @@ class Panel:
             pixels[top:bottom, column : column + thick] = _CURSOR
         return write(pixels, self._values(row, page))
 
-    def _values(self, row: int, page: _Page) -> list[Words]:
+    def _values(self, row: int, page: _Page) -> list[Label]:
         """The values at this instant, to the right of each plot."""
         size, left = max(9, round(15 * self.scale)), page.right + 10 * self.scale
-        words = []
+        labels = []
         for signal, middle in zip(self.signals, self._rows, strict=True):
-            text = _shown(signal, float(self.trajectory[signal.address][row]), self._spans[signal.address])
-            words.append(Words(text, left, middle, size, "lm", bold=True))
-        return words
+            text = _value_text(signal, float(self.trajectory[signal.address][row]), self._spans[signal.address])
+            labels.append(Label(text, left, middle, size, "lm", bold=True))
+        return labels
 
     def _extremes(self, signal: Signal) -> list[str]:
         """The texts of the smallest and the largest value of a signal."""
         values, span = self._inside(self.trajectory[signal.address]), self._spans[signal.address]
-        return [_shown(signal, float(value), span) for value in (np.min(values), np.max(values))]
+        return [_value_text(signal, float(value), span) for value in (np.min(values), np.max(values))]
 
     @cached_property
     def _spans(self) -> dict[str, float]:
@@ -108,10 +108,10 @@ class Panel:
         number = min(pages - 1, int((time - self.begin) / length))
         if number not in self._pages:
             # Time only advances, so an earlier page is not needed again.
-            self._pages = {number: self._drawn(self.begin + number * length, self.begin + (number + 1) * length)}
+            self._pages = {number: self._draw(self.begin + number * length, self.begin + (number + 1) * length)}
         return self._pages[number]
 
-    def _drawn(self, begin: float, end: float) -> _Page:
+    def _draw(self, begin: float, end: float) -> _Page:
         from matplotlib.backends.backend_agg import FigureCanvasAgg
         from matplotlib.figure import Figure
 
@@ -143,11 +143,11 @@ class Panel:
             left=left, right=1 - right, top=1 - 2.2 * line, bottom=4.0 * line, hspace=self._gap(line)
         )
         times = self.trajectory.times
-        kept = np.flatnonzero((times >= begin - 1e-9) & (times <= end + 1e-9))
-        kept = kept[:: max(1, len(kept) // _POINTS)]
+        rows = np.flatnonzero((times >= begin - 1e-9) & (times <= end + 1e-9))
+        rows = rows[:: max(1, len(rows) // _POINTS)]
         for i, (each, signal) in enumerate(zip(grid[:, 0], self.signals, strict=True)):
             values = self.trajectory[signal.address]
-            self._trace(each, times[kept], values[kept], PALETTE[i % len(PALETTE)], signal)
+            self._trace(each, times[rows], values[rows], PALETTE[i % len(PALETTE)], signal)
             each.set_ylim(*_limits(self._inside(values), signal))
             each.set_title(f"{signal.address} ({shown_unit(signal.unit)})", loc="left", fontsize=font, pad=0.3 * font)
             each.tick_params(labelsize=0.9 * font, length=0.25 * font)
@@ -187,7 +187,7 @@ def _limits(values: NDArray[np.float64], signal: Signal) -> tuple[float, float]:
     return vertical_limits(low, high, 0.06)
 
 
-def _shown(signal: Signal, value: float, span: float) -> str:
+def _value_text(signal: Signal, value: float, span: float) -> str:
     """A number with its unit and as many decimals as its plot resolves; or the name of a level."""
     if signal.levels:
         return signal.levels[int(value)]

@@ -99,9 +99,9 @@ class _Film:
         signals = scopes.chosen(replay.model, options.scopes) or scopes.usual(replay.model, stage)[:room]
         _check_room(len(signals), room)
         self.panel = Panel(replay.trajectory, signals, *rest, float(times[0]), float(times[-1]))
-        words = room_for(width, height, bool(stage.forces) + bool(stage.muscles))
+        covered = room_for(width, height, bool(stage.forces) + bool(stage.muscles))
         self.views: Views = follow(
-            self.posture, self.rows, options.speed / self.rate, width / height, words, options.view
+            self.posture, self.rows, options.speed / self.rate, width / height, covered, options.view
         )
         newtons = self.views.newtons if stage.forces else None
         metre = self.views.pixels_of_a_metre(height)

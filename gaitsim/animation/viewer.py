@@ -58,7 +58,7 @@ def view(replay: Replay, speed: float = 1.0, paused: bool = False) -> None:
             before = began
             with window.lock():
                 show.frame(window)
-            window.set_texts(show.words())
+            window.set_texts(show.texts())
             window.sync()
             time.sleep(max(0.0, _FRAME - (time.perf_counter() - began)))
 
@@ -124,7 +124,7 @@ class Show:
         window.cam.lookat[:] += looked - self._looked
         self._looked = looked
 
-    def words(self) -> list[tuple[Any, Any, str, str]]:
+    def texts(self) -> list[tuple[Any, Any, str, str]]:
         """The texts in the window."""
         paused = "paused" if self.player.paused else ""
         values = f"{self.player.time:.3f} s\n{self.player.speed:g} x real time\n{paused}"

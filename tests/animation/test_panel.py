@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from gaitsim.analysis.signals.pattern import NoSuchSignal
-from gaitsim.animation.panel import Panel, _shown
+from gaitsim.animation.panel import Panel, _value_text
 from gaitsim.animation.scopes import chosen, usual
 from gaitsim.animation.stage import stage_of
 from gaitsim.model import Signal
@@ -69,13 +69,13 @@ def test_a_long_motion_is_shown_in_pages() -> None:
 
 
 def test_values_have_as_many_decimals_as_can_be_told_apart_and_states_have_names() -> None:
-    assert _shown(FORCE, 1234.5678, 3000.0) == "1235 N"
-    assert _shown(FORCE, -0.12345, 0.5) == "−0.123 N"
-    assert _shown(Signal("a", "1", ""), 0.5, 1.0) == "0.50"
-    assert _shown(FORCE, 2.0, 0.0) == "2.000 N"
-    assert _shown(LEVEL, 1.0, 1.0) == "stance"
-    assert _shown(FORCE, -1e-16, 0.0) == "0.000 N"
-    assert _shown(FORCE, 4.23456e-8, 6e-7) == "4.23e−08 N"
+    assert _value_text(FORCE, 1234.5678, 3000.0) == "1235 N"
+    assert _value_text(FORCE, -0.12345, 0.5) == "−0.123 N"
+    assert _value_text(Signal("a", "1", ""), 0.5, 1.0) == "0.50"
+    assert _value_text(FORCE, 2.0, 0.0) == "2.000 N"
+    assert _value_text(LEVEL, 1.0, 1.0) == "stance"
+    assert _value_text(FORCE, -1e-16, 0.0) == "0.000 N"
+    assert _value_text(FORCE, 4.23456e-8, 6e-7) == "4.23e−08 N"
 
 
 def small_signals(unit: str, *signals: NDArray[np.float64]) -> Panel:

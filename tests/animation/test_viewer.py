@@ -56,6 +56,6 @@ def test_the_mouse_may_turn_the_camera(show: Show) -> None:
 
 
 def test_time_speed_and_pause_are_written(show: Show) -> None:
-    assert show.words()[0][3] == "0.000 s\n0.5 x real time\npaused"
+    assert show.texts()[0][3] == "0.000 s\n0.5 x real time\npaused"
     show.player.press(SPACE)
-    assert show.words()[0][3] == "0.000 s\n0.5 x real time\n"
+    assert show.texts()[0][3] == "0.000 s\n0.5 x real time\n"
