@@ -20,7 +20,7 @@ _DIGEST_SIZE = hashlib.sha256().digest_size
 _REMEDY = "so nothing is kept and each run compiles again; set GAITSIM_CACHE to a folder that can be written"
 
 
-def kept(kind: str, key: str) -> bytes | None:
+def cached(kind: str, key: str) -> bytes | None:
     """Read an entry of the cache.
 
     Args:

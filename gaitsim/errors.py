@@ -10,16 +10,16 @@ from dataclasses import dataclass
 from enum import IntEnum
 
 
-def command(*words: object) -> str:
+def command(*arguments: object) -> str:
     """A gaitsim command that can be pasted into a shell.
 
     Args:
-        words: The words after `gaitsim`.
+        arguments: The words after `gaitsim`.
 
     Returns:
         The command, with quotes where the shell needs them.
     """
-    return shlex.join(["gaitsim", *map(str, words)])
+    return shlex.join(["gaitsim", *map(str, arguments)])
 
 
 _LONGEST = 200  # the most letters of a word or value in a message
@@ -159,16 +159,16 @@ def with_article(noun: str) -> str:
     return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
 
 
-def alternatives(words: Iterable[str]) -> str:
+def alternatives(names: Iterable[str]) -> str:
     """Words as a choice: cma, ga, pso or de."""
-    *others, last = words
+    *others, last = names
     return " or ".join([", ".join(others), last])
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:
     """A hint for an unknown word: the most similar known word, or all known words."""
-    words = sorted(known)
-    near = nearest(word, words)
+    names = sorted(known)
+    near = nearest(word, names)
     if near:
         return f"Did you mean {near}?"
-    return f"Known here: {', '.join(words)}." if words else "Nothing is known here."
+    return f"Known here: {', '.join(names)}." if names else "Nothing is known here."

@@ -31,33 +31,33 @@ def state_folder() -> Path | None:
     return _below("XDG_STATE_HOME", ".local/state")
 
 
-def results_folder(said: Path | None = None) -> Path:
+def results_folder(folder: Path | None = None) -> Path:
     """Find the folder of results.
 
     Args:
-        said: The folder that the user named, if any.
+        folder: The folder that the user named, if any.
 
     Returns:
         That folder, or else $GAITSIM_RESULTS, or else results in the current folder.
     """
-    return said if said is not None else Path(os.environ.get("GAITSIM_RESULTS") or "results")
+    return folder if folder is not None else Path(os.environ.get("GAITSIM_RESULTS") or "results")
 
 
-def analysis_folder(said: Path | None = None) -> Path:
+def analysis_folder(folder: Path | None = None) -> Path:
     """Where what is drawn of specs goes: analysis in the folder of the results, if one was said; else analysis here."""
-    return (results_folder(said) if said is not None or os.environ.get("GAITSIM_RESULTS") else Path()) / "analysis"
+    return (results_folder(folder) if folder is not None or os.environ.get("GAITSIM_RESULTS") else Path()) / "analysis"
 
 
 def _below(variable: str, usual: str) -> Path | None:
     """The folder of gaitsim by the XDG base directory specification, which does not allow relative paths."""
-    said = Path(os.environ.get(variable, ""))
-    if said.is_absolute():
-        return said / "gaitsim"
+    named = Path(os.environ.get(variable, ""))
+    if named.is_absolute():
+        return named / "gaitsim"
     try:
         return _absolute(f"{Path.home()}/{usual}/gaitsim")
     except RuntimeError:  # neither $HOME nor an entry in the password database
         return None
 
 
-def _absolute(said: str) -> Path | None:
-    return Path(said) if Path(said).is_absolute() else None
+def _absolute(path: str) -> Path | None:
+    return Path(path) if Path(path).is_absolute() else None

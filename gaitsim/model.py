@@ -61,8 +61,8 @@ class Free:
             start: The bound that is used instead, in SI.
             origin: The file that the start comes from; empty if unknown.
         """
-        said = self.unit.shown(value) + (f" from {origin}" if origin else "")
-        rule = f"{said} is outside {self.unit.span(self.low, self.high)}, so it starts at {self.unit.shown(start)}"
+        asked = self.unit.shown(value) + (f" from {origin}" if origin else "")
+        rule = f"{asked} is outside {self.unit.span(self.low, self.high)}, so it starts at {self.unit.shown(start)}"
         return f"warning: {self.address}: {rule}; widen tune, or tune it again."
 
 
@@ -347,8 +347,8 @@ def headed(metric: str, models: Iterable[Model]) -> str:
         models: The models that have it. If their units differ, the heading names all of them.
     """
     units = dict.fromkeys(unit for model in models if (unit := model.metrics.get(metric)))
-    said = " or ".join(units)
-    return metric if said in ("", "1") else f"{metric} [{said}]"
+    written = " or ".join(units)
+    return metric if written in ("", "1") else f"{metric} [{written}]"
 
 
 def _like(unit: str, other: str) -> str:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
 
 Export = StrEnum("Export", {ending: ending for ending in FORMATS})  # type: ignore[misc]  # one declaration of formats
-_EXPORTS = alternatives(format.words for format in FORMATS.values())
+_EXPORTS = alternatives(format.description for format in FORMATS.values())
 
 
 class Format(StrEnum):
@@ -156,7 +156,7 @@ def _tell(replays: Sequence[Replay], products: Products, json: bool) -> None:
         return
     names = list(dict.fromkeys(name for replay in replays for name in replay.outcome.metrics))
     units = {name: unit for replay in replays for name, unit in replay.model.metrics.items()}
-    rows = [(n, *(console.shown(r.outcome.metrics.get(n)) for r in replays), units[n]) for n in names]
+    rows = [(n, *(console.formatted(r.outcome.metrics.get(n)) for r in replays), units[n]) for n in names]
     if rows:
         values = ["value"] if len(replays) == 1 else [replay.label for replay in replays]
         console.give_table(["measure", *values, "unit"], rows)

@@ -142,8 +142,8 @@ def difference_rows(name: str, differs: Sequence[Difference]) -> list[tuple[str,
             name,
             d.run,
             d.metric,
-            _said(d.recorded),
-            _said(d.now),
+            _value_text(d.recorded),
+            _value_text(d.now),
             d.unit if d.unit != "1" else "",
             "" if d.change is None else f"{100 * d.change:+.2g} %",
             "" if d.tolerance is None else f"{d.tolerance:.2g}",
@@ -159,7 +159,7 @@ def compared_rows(rows: Iterable[Compared]) -> list[tuple[str, ...]]:
     """Known values beside those of a model, as rows of a table."""
     from gaitsim.units import with_unit
 
-    words = {True: "yes", False: "no", None: ""}
+    answers = {True: "yes", False: "no", None: ""}
     return [
         (
             row.what,
@@ -167,7 +167,7 @@ def compared_rows(rows: Iterable[Compared]) -> list[tuple[str, ...]]:
             with_unit(f"{row.known:.9g}", row.unit),
             "-" if row.model is None else with_unit(f"{row.model:.9g}", row.unit),
             _difference(row),
-            words[row.holds],
+            answers[row.holds],
             row.source,
         )
         for row in rows
@@ -192,11 +192,11 @@ def _headline(metrics: Mapping[str, tuple[float | None, str]]) -> str:
     from gaitsim.units import with_unit
 
     names = headline_metrics(metrics)
-    few = [f"{n} {with_unit(console.shown(metrics[n][0]), metrics[n][1])}" for n in names[:_HEADLINES]]
+    few = [f"{n} {with_unit(console.formatted(metrics[n][0]), metrics[n][1])}" for n in names[:_HEADLINES]]
     return ", ".join(few) or "no record"
 
 
-def _said(value: float | str | None) -> str:
+def _value_text(value: float | str | None) -> str:
     return f"{value:.9g}" if isinstance(value, float) else value or "-"
 
 

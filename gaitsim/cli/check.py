@@ -62,10 +62,10 @@ def check(
     }
     if json:
         messages = {"notices": sound.notices, "warnings": [_line(one) for one in sound.warnings]}
-        drawn = {"plot": str(picture) if picture else None, "moment_arms": table(arms)} if plot else {}
+        pictures = {"plot": str(picture) if picture else None, "moment_arms": table(arms)} if plot else {}
         changes = {"convergence": [data(one, tolerance) for one in found]} if convergence else {}
         known = {"reproduces": [compared_data(row) for row in sound.known]}
-        console.give_json({"status": "valid", **counts, **messages, **known, **drawn, **changes})
+        console.give_json({"status": "valid", **counts, **messages, **known, **pictures, **changes})
         return
     console.give(f"{spec}: valid ({', '.join(f'{n} {name}' for name, n in counts.items())})")
     if sound.known:

@@ -41,12 +41,12 @@ def cite(
         console.give_json(
             {
                 "entries": [{"key": e.key, "bibtex": e.bibtex, "used_by": e.used_by} for e in found.entries],
-                "words": found.words,
+                "words": found.texts,
             }
         )
         return
     console.give("\n\n".join(entry.bibtex for entry in found.entries))
-    for text, places in found.words.items():
+    for text, places in found.texts.items():
         console.say(f"in words, to be cited by hand: {text} ({_few(places)})")
 
 

@@ -105,23 +105,23 @@ def _begun(
     if bodies is None:
         sample = command("cohort", opened.path, "bodies.csv")
         raise Usage(f"there is no table of bodies; name one, such as {sample}, or --resume a result.")
-    said: Mode = "normal" if asked["mode"] == ModeName.normal else "rapid"
+    mode: Mode = "normal" if asked["mode"] == ModeName.normal else "rapid"
     of = CohortRequest(bodies, asked["vary"] or [], asked["retune"] or 0, asked["seed"], asked["metric"] or [])
-    return cohort_runs(opened, of, said, None if no_save else results_folder(results))
+    return cohort_runs(opened, of, mode, None if no_save else results_folder(results))
 
 
 def _resumed(opened: Opening, bodies: Path | None, asked: dict[str, Any], no_save: bool) -> CohortRuns:
     from gaitsim.study.cohorts import resumed_cohort
 
     options = [f"--{name}" for name, value in asked.items() if value is not None]
-    said = [*([str(bodies)] if bodies else []), *options, *(["--no-save"] if no_save else [])]
-    if said:
-        raise Usage(f"{said[0]} begins a new cohort, and --resume continues an old one; leave one out.")
+    conflicting = [*([str(bodies)] if bodies else []), *options, *(["--no-save"] if no_save else [])]
+    if conflicting:
+        raise Usage(f"{conflicting[0]} begins a new cohort, and --resume continues an old one; leave one out.")
     return resumed_cohort(opened)
 
 
 def _again(runs: CohortRuns, workplace: Workplace) -> str:
-    return shlex.join(["gaitsim", "cohort", str(runs.folder), "--resume", *workplace.words])
+    return shlex.join(["gaitsim", "cohort", str(runs.folder), "--resume", *workplace.arguments])
 
 
 def _report(runs: CohortRuns, wall: float, json: bool) -> None:
@@ -165,7 +165,7 @@ def _give_table(runs: CohortRuns) -> None:
     before = cells.columns.index("reason")
     wanted = [*range(before), *(cells.columns.index(headed(name, [runs.model])) for name in runs.metrics)]
     rows = [
-        [cell if isinstance(cell, str) else console.shown(cell) for cell in (row[i] for i in wanted)]
+        [cell if isinstance(cell, str) else console.formatted(cell) for cell in (row[i] for i in wanted)]
         for row in cells.rows
     ]
     console.give_table([cells.columns[i] for i in wanted], rows)

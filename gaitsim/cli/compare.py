@@ -83,7 +83,7 @@ def _cells(*texts: str) -> list[str]:
 
 def _rows(pairs: Sequence[Pair]) -> list[tuple[str, ...]]:
     return [
-        (p.name, *(console.shown(value) for value in (p.first, p.second, p.difference, p.percent)), p.unit)
+        (p.name, *(console.formatted(value) for value in (p.first, p.second, p.difference, p.percent)), p.unit)
         for p in pairs
     ]
 

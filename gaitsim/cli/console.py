@@ -41,14 +41,14 @@ def progress(what: str, quiet: bool = False) -> Callable[[int, int], None]:
     Returns:
         A function of the number of steps that are done, and the number of all steps.
     """
-    terminal, said = sys.stderr.isatty(), time.monotonic()
+    terminal, reported = sys.stderr.isatty(), time.monotonic()
 
     def report(done: int, count: int) -> None:
-        nonlocal said
+        nonlocal reported
         if terminal:
             rewrite("" if done == count else f"{what}: {done} of {count}")
-        elif not quiet and done < count and time.monotonic() - said >= PLAIN_EVERY:
-            said = time.monotonic()
+        elif not quiet and done < count and time.monotonic() - reported >= PLAIN_EVERY:
+            reported = time.monotonic()
             say(f"{what}: {done} of {count}")
 
     return report
@@ -170,7 +170,7 @@ def error_data(error: GaitsimError) -> dict[str, Any]:
     }
 
 
-def shown(number: float | None) -> str:
+def formatted(number: float | None) -> str:
     """A number as text for a table."""
     return "-" if number is None or not math.isfinite(number) else f"{number:.5g}"
 

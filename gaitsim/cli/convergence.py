@@ -17,10 +17,10 @@ def give(found: StepConvergence, tolerance: float) -> None:
         (
             change.name,
             change.unit,
-            *(console.shown(value) for value in change.values),
+            *(console.formatted(value) for value in change.values),
             "-" if change.relative is None else f"{100 * change.relative:.3g} %",
-            console.shown(change.ratio),
-            console.shown(change.order),
+            console.formatted(change.ratio),
+            console.formatted(change.order),
             change.flag(tolerance) and "<",
         )
         for change in found.changes

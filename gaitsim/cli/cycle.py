@@ -45,13 +45,13 @@ def cycle(
     if json:
         console.give_json(_data(gait))
         return 0
-    rows = [(name, f"{gait.shown(name):.10g}", gait.units[name]) for name in (*gait.start, *gait.metrics)]
+    rows = [(name, f"{gait.in_unit(name):.10g}", gait.units[name]) for name in (*gait.start, *gait.metrics)]
     console.give_table(["of the gait", "value", "unit"], [*rows, ("period", f"{gait.period:.10g}", "s")])
     console.give_table(
         ["eigenvalue", "absolute"], [(f"{_plain(each):.6g}", f"{abs(each):.6g}") for each in gait.eigenvalues]
     )
-    said = "stable: small disturbances die out" if gait.stable else "unstable: small disturbances grow"
-    console.say(f"{said}. It returns to itself within {gait.distance:.1g}, found in {gait.runs} runs.")
+    stability = "stable: small disturbances die out" if gait.stable else "unstable: small disturbances grow"
+    console.say(f"{stability}. It returns to itself within {gait.distance:.1g}, found in {gait.runs} runs.")
     return 0
 
 
@@ -61,8 +61,8 @@ def _plain(number: complex) -> complex | float:
 
 def _data(gait: Cycle) -> dict[str, Any]:
     return {
-        "start": {name: gait.shown(name) for name in gait.start},
-        "metrics": {name: gait.shown(name) for name in gait.metrics},
+        "start": {name: gait.in_unit(name) for name in gait.start},
+        "metrics": {name: gait.in_unit(name) for name in gait.metrics},
         "units": gait.units,
         "period": gait.period,
         "eigenvalues": [[each.real, each.imag] for each in gait.eigenvalues],

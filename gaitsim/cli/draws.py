@@ -36,7 +36,8 @@ def drawn_data(
             for each in _summaries(outcomes)
         },
         "rows": [
-            {"draw": k, "values": drawn, **row} for k, (drawn, row) in enumerate(zip(values, each_run, strict=False), 1)
+            {"draw": k, "values": sample, **row}
+            for k, (sample, row) in enumerate(zip(values, each_run, strict=False), 1)
         ],
     }
 
@@ -56,7 +57,7 @@ def give_draws(draws: Draws, model: Model, outcomes: Sequence[Outcome]) -> None:
 
 def _row(each: Summary, units: Mapping[str, str], counted: bool) -> tuple[str, ...]:
     name = each.name if each.name in units else f"{each.name} (a cost)"
-    numbers = (console.shown(number) for number in (each.mean, each.least, each.greatest))
+    numbers = (console.formatted(number) for number in (each.mean, each.least, each.greatest))
     return name, *numbers, units.get(each.name, ""), *([str(each.count)] if counted else [])
 
 

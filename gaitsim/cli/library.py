@@ -76,7 +76,7 @@ def show_component(
         raise Usage("--set says at which values curves are drawn; add --plot.")
     component = open_library(None, library or ()).find(reference)
     found = described(component)
-    picture = _drawn(component, settings or [], folder) if plot else None
+    picture = _draw_curves(component, settings or [], folder) if plot else None
     if json:
         console.give_json(found | ({"plot": str(picture) if picture else None} if plot else {}))
         return
@@ -84,7 +84,7 @@ def show_component(
     for section, rows in found.items():
         if isinstance(rows, dict) and rows:
             console.give("")
-            columns = list(dict.fromkeys(key for row in rows.values() for key in row if _said(row[key])))
+            columns = list(dict.fromkeys(key for row in rows.values() for key in row if _has_value(row[key])))
             table = [(name, *(_cell(row.get(key)) for key in columns)) for name, row in rows.items()]
             console.give_table([section, *columns], table)
 
@@ -198,7 +198,7 @@ def _of_native_code(reference: str, parts: Library) -> list[Fault]:
     return []
 
 
-def _drawn(component: ComponentFile, settings: list[str], folder: Path) -> Path | None:
+def _draw_curves(component: ComponentFile, settings: list[str], folder: Path) -> Path | None:
     """Draw the curves of a component, or print why there are none."""
     from gaitsim.analysis.models.curves import draw
     from gaitsim.results.store import CannotSave
@@ -242,13 +242,13 @@ def _values(component: ComponentFile, settings: list[str]) -> dict[str, float]:
     return values
 
 
-def _said(value: Any) -> bool:
+def _has_value(value: Any) -> bool:
     """Whether a field has a value. Fields without a value in any row get no column."""
     return value is not None and value is not False and value not in ("", (), [], {})
 
 
 def _cell(value: Any) -> str:
-    if not _said(value):
+    if not _has_value(value):
         return ""
     if isinstance(value, Mapping):
         return ", ".join(f"{name} = {_cell(item)}" for name, item in value.items())

@@ -58,8 +58,8 @@ def used_by(
         users = [dict(zip(("what", "name", "version", "created"), row, strict=True)) for row in rows]
         console.give_json({"use": reference, "version": version, "users": users})
         return
-    said = [(what, name, _version(one, version), made) for what, name, one, made in rows]
-    console.give_table(["what", "name", "version", "made"], said)
+    table = [(what, name, _version(one, version), made) for what, name, one, made in rows]
+    console.give_table(["what", "name", "version", "made"], table)
     console.give(f"{reference} is {version} now, used by {len(rows)}")
 
 

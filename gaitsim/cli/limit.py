@@ -120,7 +120,7 @@ def _report(runs: LimitRuns, folder: Path | None, json: bool) -> None:
 
 
 def _row(limit: Limit, runs: LimitRuns) -> tuple[str, ...]:
-    ending = runs.until.said(limit.ending) if limit.ending else "-"
+    ending = runs.until.ending_of(limit.ending) if limit.ending else "-"
     count = str(len(limit.outcomes))
     ends = limit.at(0), limit.at(1), limit.last, limit.first or "-"
     return *limit.beside.values(), limit.address, *ends, ending, count
@@ -134,10 +134,10 @@ def _data(limit: Limit, runs: LimitRuns) -> dict[str, Any]:
         "to": limit.at(1),
         "last": limit.last,
         "first": limit.first,
-        "ending": runs.until.said(limit.ending) if limit.ending else None,
+        "ending": runs.until.ending_of(limit.ending) if limit.ending else None,
         "beyond": limit.beyond,
         "runs": [
-            {"value": limit.at(share), "holds": limit.bracket.held[share], "ending": runs.until.said(outcome)}
+            {"value": limit.at(share), "holds": limit.bracket.held[share], "ending": runs.until.ending_of(outcome)}
             for share, outcome in sorted(limit.outcomes.items())
         ],
     }

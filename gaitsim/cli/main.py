@@ -37,7 +37,7 @@ def main(arguments: list[str] | None = None) -> None:
     sys.exit(code if isinstance(code, int) else ExitCode.OK)
 
 
-def _ran(words: list[str]) -> object:
+def _ran(arguments: list[str]) -> object:
     """Run a command.
 
     Returns:
@@ -46,11 +46,11 @@ def _ran(words: list[str]) -> object:
     try:
         from gaitsim.cli.program import program_for
 
-        _check_words(words)
-        return program_for(words)(args=words, prog_name="gaitsim", standalone_mode=False)
+        _check_encoding(arguments)
+        return program_for(arguments)(args=arguments, prog_name="gaitsim", standalone_mode=False)
     except GaitsimError as error:
         console.say_error(error)
-        if "--json" in words:
+        if "--json" in arguments:
             console.give_json(console.error_data(error))
         return error.exit_code
     except KeyboardInterrupt:
@@ -62,18 +62,18 @@ def _ran(words: list[str]) -> object:
         return _other(error)
 
 
-def _check_words(words: list[str]) -> None:
+def _check_encoding(arguments: list[str]) -> None:
     """Refuse command lines that cannot be used.
 
     Raises:
         Usage: A word is not text, or the current folder was removed.
     """
-    for word in words:
+    for word in arguments:
         try:
             word.encode("utf-8")
         except UnicodeEncodeError as error:
-            shown = word.encode("utf-8", "backslashreplace").decode("utf-8")
-            raise Usage(f"{shown}: this name is not UTF-8, so no text can hold it; rename the file.") from error
+            text = word.encode("utf-8", "backslashreplace").decode("utf-8")
+            raise Usage(f"{text}: this name is not UTF-8, so no text can hold it; rename the file.") from error
     try:
         os.getcwd()  # noqa: PTH109 (only asked whether it is there)
     except FileNotFoundError as error:

@@ -126,7 +126,7 @@ def _interrupted(tuning: Tuning, workplace: Workplace, json: bool) -> int:
 
 def _again(tuning: Tuning, workplace: Workplace) -> str:
     """The command that continues the search in the same workplace."""
-    return shlex.join(["gaitsim", "optimize", str(tuning.folder), "--resume", *workplace.words])
+    return shlex.join(["gaitsim", "optimize", str(tuning.folder), "--resume", *workplace.arguments])
 
 
 def _failure_data(count: int, example: Evaluation) -> dict[str, object]:
@@ -142,7 +142,7 @@ def _report(tuning: Tuning, progress: Progress, wall: float, json: bool, adoptio
     best = progress.best
     assert best is not None
     if adoption:
-        console.say(adoption.words)
+        console.say(adoption.message)
     if json:
         console.give_json(
             {
@@ -159,11 +159,11 @@ def _report(tuning: Tuning, progress: Progress, wall: float, json: bool, adoptio
         )
         return
     rows = [
-        (v.address, console.shown(v.unit.of(x)), v.unit.text, f"[{v.unit.of(v.low):g}, {v.unit.of(v.high):g}]")
+        (v.address, console.formatted(v.unit.of(x)), v.unit.text, f"[{v.unit.of(v.low):g}, {v.unit.of(v.high):g}]")
         for v, x in zip(tuning.problem.variables, best.candidate.x, strict=True)
     ]
     console.give_table(["tuned", "best", "unit", "bounds"], rows)
-    score = console.shown(best.verdict.score)
+    score = console.formatted(best.verdict.score)
     console.give(
         f"best score {score} (candidate {best.candidate.name}) after {progress.evaluations} evaluations in "
         f"{progress.generation} generations, {progress.failed} failed, {wall:.3g} s of wall time"

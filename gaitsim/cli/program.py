@@ -20,14 +20,14 @@ COMMANDS = (
 GROUPS = ("library", "archive", "results")
 
 
-def program_for(words: Sequence[str]) -> typer.Typer:
+def program_for(arguments: Sequence[str]) -> typer.Typer:
     """The program for a command line. It has only the command that is called, because Typer would build all others
     too.
 
     Args:
-        words: The words after `gaitsim`. If the first is not a command, the program has all commands.
+        arguments: The words after `gaitsim`. If the first is not a command, the program has all commands.
     """
-    name = words[0] if words else ""
+    name = arguments[0] if arguments else ""
     if name in COMMANDS:
         return _program([name], [])
     return _program([], [name]) if name in GROUPS else whole_program()

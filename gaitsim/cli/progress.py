@@ -20,25 +20,25 @@ class ProgressLine:
     def __init__(self, generations: int) -> None:
         self._generations = generations
         self._terminal = sys.stderr.isatty()
-        self._began = self._said = time.monotonic()
-        self._shown = ""
+        self._began = self._reported = time.monotonic()
+        self._line = ""
 
     def update(self, progress: Progress) -> None:
         now = time.monotonic()
         last = progress.generation == self._generations
-        if now - self._said < (_EVERY if self._terminal else console.PLAIN_EVERY) and not last:
+        if now - self._reported < (_EVERY if self._terminal else console.PLAIN_EVERY) and not last:
             return
         text = self._text(progress, now - self._began)
-        if text == self._shown:
+        if text == self._line:
             return
-        self._said, self._shown = now, text
+        self._reported, self._line = now, text
         if self._terminal:
             console.rewrite(text)
         else:
             console.say(text)
 
     def close(self) -> None:
-        if self._terminal and self._shown:
+        if self._terminal and self._line:
             console.say("")
 
     def _text(self, progress: Progress, seconds: float) -> str:
@@ -48,7 +48,7 @@ class ProgressLine:
         left = _clock(missing / rate) if rate else "-"
         score = progress.best.verdict.score if progress.best else None
         return (
-            f"generation {progress.generation}/{self._generations}  best {console.shown(score)}  "
+            f"generation {progress.generation}/{self._generations}  best {console.formatted(score)}  "
             f"{progress.evaluations + progress.arrived} evaluations, {progress.failed} failed, {rate:.1f}/s, "
             f"{left} left at most"
         )

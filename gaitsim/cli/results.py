@@ -63,7 +63,7 @@ def list_results(
     columns = ["result", "kind", "status", "best score", "evaluations", "created", "notes"]
     cells = [
         (
-            *(r["result"], r["kind"], r["status"], console.shown(r["best_score"]), str(r["evaluations"] or "")),
+            *(r["result"], r["kind"], r["status"], console.formatted(r["best_score"]), str(r["evaluations"] or "")),
             *(r["created"], _brief(r["notes"])),
         )
         for r in rows
@@ -95,11 +95,11 @@ def show_result(folder: Folder, json: Json = False) -> None:
         if key in manifest:
             console.give(f"{key:<12} {manifest[key]}")
     if commit := manifest.get("commit"):
-        words = ", with changes that were not committed: changes.diff" if commit["dirty"] else ""
-        console.give(f"{'commit':<12} {commit['hash']}{words}")
+        changes = ", with changes that were not committed: changes.diff" if commit["dirty"] else ""
+        console.give(f"{'commit':<12} {commit['hash']}{changes}")
     columns = ("low", "high", "start", "best", "mean", "std")
     tuned = tuned_in(folder, manifest)
-    rows = [(row.address, row.unit, *(console.shown(getattr(row, name)) for name in columns)) for row in tuned]
+    rows = [(row.address, row.unit, *(console.formatted(getattr(row, name)) for name in columns)) for row in tuned]
     if rows:
         console.give("")
         console.give_table(["address", "unit", *columns], rows)

@@ -83,7 +83,7 @@ def import_result(
     if json:
         console.give_json(_imported(made, found, changed))
         return
-    rows = [(c.path, c.words, "not known to this machine" if c.strange else "") for c in found if not c.same]
+    rows = [(c.path, c.comparison, "not known to this machine" if c.strange else "") for c in found if not c.same]
     if rows:
         console.give_table(["brings", "in your libraries", "code"], rows)
     same = sum(c.same for c in found)

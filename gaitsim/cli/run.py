@@ -75,10 +75,10 @@ def run(
     from gaitsim.study.draws import draws_asked
     from gaitsim.study.runs import Places, prepared
 
-    drawn = draws_asked(draws, within, seed, vary or [], out)
+    samples = draws_asked(draws, within, seed, vary or [], out)
     opened = opening(spec, settings, library, tuned=not start, trusted=trust, candidate=candidate, results=results)
     places, talk = Places(None if no_save else results_folder(results), out, every), console.ConsoleListener(json)
-    runs = prepared(opened, vary or [], drawn, mode.value, places, talk)
+    runs = prepared(opened, vary or [], samples, mode.value, places, talk)
     try:
         runs.run(talk)
     except KeyboardInterrupt:
@@ -122,8 +122,8 @@ def _report(runs: Runs, json: bool) -> None:
 def _say_endings(runs: Runs) -> None:
     """Print which runs failed, and why; of draws also which ones were stopped."""
     for number, (row, outcome) in enumerate(zip(runs.rows, runs.outcomes, strict=True), start=1):
-        words = [f"{address} = {value}" for address, value in row.settings.items()]
-        which = f"draw {number}: " if runs.draws else f"{', '.join(words)}: " if words else ""
+        settings = [f"{address} = {value}" for address, value in row.settings.items()]
+        which = f"draw {number}: " if runs.draws else f"{', '.join(settings)}: " if settings else ""
         if outcome.status == "failed":
             console.say(f"{which}failed: {outcome.reason}")
         elif outcome.status == "stopped" and runs.draws:
@@ -150,9 +150,9 @@ def _data(outcome: Outcome) -> dict[str, Any]:
 
 def _print_one(outcome: Outcome, model: Model) -> None:
     units = model.metrics
-    rows = [(name, console.shown(value), units[name]) for name, value in outcome.metrics.items()]
+    rows = [(name, console.formatted(value), units[name]) for name, value in outcome.metrics.items()]
     if outcome.score is not None:
-        rows.append(("score (a cost)", console.shown(outcome.score), ""))
+        rows.append(("score (a cost)", console.formatted(outcome.score), ""))
     console.give_table(["metric", "value", "unit"], rows)
     seconds, wall = outcome.simulated_seconds, outcome.wall_seconds
     by = f" by {outcome.ending}" if outcome.status == "stopped" else ""
@@ -172,7 +172,7 @@ def _print_table(rows: Sequence[Variant], outcomes: Sequence[Outcome], models: S
         (
             *(row.settings.get(address, "") for address in addresses),
             outcome.status,
-            *(console.shown(outcome.metrics.get(name)) for name in names),
+            *(console.formatted(outcome.metrics.get(name)) for name in names),
         )
         for row, outcome in zip(rows, outcomes, strict=True)
     ]

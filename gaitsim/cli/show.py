@@ -61,8 +61,8 @@ def _tree(rows: list[dict[str, Any]]) -> None:
         name = row["address"].rpartition(".")[2]
         fastened = ", ".join(f"{k}: {v}" for k, v in row.get("fastened", {}).items())
         line = f"{'  ' * depth}{name}"
-        words = f"{line:<32} {row['use']:<{wide}}  {row['library']:<8}{'  (' + fastened + ')' if fastened else ''}"
-        console.give(words.rstrip())
+        text = f"{line:<32} {row['use']:<{wide}}  {row['library']:<8}{'  (' + fastened + ')' if fastened else ''}"
+        console.give(text.rstrip())
 
 
 def _parameters(rows: list[dict[str, Any]]) -> None:
@@ -72,7 +72,7 @@ def _parameters(rows: list[dict[str, Any]]) -> None:
         other = f" {row['tune_unit']}" if row.get("tune_unit", row["unit"]) != row["unit"] else ""
         bounds = "" if low is None else f"[{low:g}, {high:g}]{other}"
         origin = row.get("expression") or row.get("source", "")
-        table.append((row["address"], console.shown(row["value"]), row["unit"], bounds, origin))
+        table.append((row["address"], console.formatted(row["value"]), row["unit"], bounds, origin))
     console.give_table(["parameter", "value", "unit", "tune", "from"], table)
 
 

@@ -193,9 +193,9 @@ class Parallel:
                 raise ClusterError(f"worker {worker}: it has {wrong}; {_SAME}.")
 
     def _lost(self, error: BaseException | None) -> ClusterError:
-        said = f" ({error})" if error is not None and str(error) else ""
+        why = f" ({error})" if error is not None and str(error) else ""
         place = self._client.scheduler.address if self._client.scheduler else "the scheduler"
-        return ClusterError(f"{place}: the connection to the scheduler is lost{said}; start it and its workers again.")
+        return ClusterError(f"{place}: the connection to the scheduler is lost{why}; start it and its workers again.")
 
 
 def _gathered(future: Any) -> Done:

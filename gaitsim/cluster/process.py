@@ -88,8 +88,8 @@ def started(bundle: Bundle, mode: Mode, lifeline: Lifeline, method: str) -> Work
     context: Any = get_context(method)
     tasks_out, tasks = context.Pipe(duplex=False)
     answers, answers_in = context.Pipe(duplex=False)
-    words = (bundle, mode, tasks_out, answers_in, lifeline.held, lifeline.kept)
-    process = context.Process(target=_serve, args=words, daemon=True, name="gaitsim worker")
+    arguments = (bundle, mode, tasks_out, answers_in, lifeline.held, lifeline.kept)
+    process = context.Process(target=_serve, args=arguments, daemon=True, name="gaitsim worker")
     # Signals that the driver handles are blocked until the worker ignores them.
     signal.pthread_sigmask(signal.SIG_BLOCK, _DRIVERS)
     try:

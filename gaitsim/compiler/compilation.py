@@ -17,7 +17,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from gaitsim.cache import kept
+from gaitsim.cache import cached
 from gaitsim.compiler import machine, stage_code
 from gaitsim.compiler.kernel import Kernel, kernel_of
 from gaitsim.compiler.native import CLOCK, TICKS
@@ -68,7 +68,7 @@ def bitcode_of(kernels: Sequence[Kernel]) -> list[bytes]:
     Raises:
         InvalidComponent: A kernel cannot become native code.
     """
-    missing = [kernel for kernel in kernels if kept("kernels", kernel.name) is None]
+    missing = [kernel for kernel in kernels if cached("kernels", kernel.name) is None]
     helpers = _helpers(missing)
     try:
         return [kernel.bitcode() for kernel in kernels]

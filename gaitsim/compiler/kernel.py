@@ -16,7 +16,7 @@ from functools import cache
 from types import FunctionType, ModuleType
 from typing import Any
 
-from gaitsim.cache import keep, kept
+from gaitsim.cache import cached, keep
 from gaitsim.compiler import machine
 from gaitsim.components.checks.shared import builtins_with
 from gaitsim.components.primitive import Primitive
@@ -85,7 +85,7 @@ class Kernel:
         Raises:
             InvalidComponent: The component cannot become native code.
         """
-        found = kept("kernels", self.name)
+        found = cached("kernels", self.name)
         if found is None:
             found = _compiled(self)
             keep("kernels", self.name, found)

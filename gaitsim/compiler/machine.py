@@ -23,7 +23,7 @@ import llvmlite.binding as llvm
 import mujoco
 import numpy as np
 
-from gaitsim.cache import keep, kept
+from gaitsim.cache import cached, keep
 
 _MUJOCO = (
     *("mj_step1", "mj_step2", "mj_forwardSkip", "mj_RungeKutta"),
@@ -144,7 +144,7 @@ def code(kind: str, key: str, make: Callable[[], bytes]) -> Code:
         key: Its key.
         make: Makes the object file.
     """
-    file = kept(kind, key)
+    file = cached(kind, key)
     if file is None:
         file = make()
         keep(kind, key, file)

@@ -6,7 +6,7 @@ import hashlib
 import inspect
 from typing import Any
 
-from gaitsim.cache import keep, kept
+from gaitsim.cache import cached, keep
 from gaitsim.compiler import machine, stages
 from gaitsim.compiler.chains import TABLES, arguments
 
@@ -34,7 +34,7 @@ def bitcode() -> bytes:
     text = inspect.getsource(stages)
     key = hashlib.sha256(f"{text}|{STAGES}|{machine.environment()}".encode()).hexdigest()
     name = f"stages.{key[:32]}"
-    found = kept("kernels", name)
+    found = cached("kernels", name)
     if found is None:
         found = _compiled(text)
         keep("kernels", name, found)

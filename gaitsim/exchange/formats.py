@@ -33,7 +33,7 @@ class Format:
     """An export format; `ending` is its name and the ending of its files."""
 
     ending: str
-    words: str
+    description: str
     write: Callable[[Path, Export], None]
 
 

@@ -29,10 +29,10 @@ def labelled(trajectory: Trajectory, signals: Sequence[Signal], about: Mapping[s
 
     variables = {}
     for column, signal in enumerate(signals):
-        words: dict[str, Any] = {"units": signal.unit, "long_name": signal.doc.rstrip(".") or signal.address}
+        attributes: dict[str, Any] = {"units": signal.unit, "long_name": signal.doc.rstrip(".") or signal.address}
         if signal.levels:
-            words |= {"flag_values": list(range(len(signal.levels))), "flag_meanings": " ".join(signal.levels)}
-        variables[signal.address] = ("time", trajectory.values[:, column], words)
+            attributes |= {"flag_values": list(range(len(signal.levels))), "flag_meanings": " ".join(signal.levels)}
+        variables[signal.address] = ("time", trajectory.values[:, column], attributes)
     time = ("time", trajectory.times, {"units": "s", "long_name": "time"})
     return xarray.Dataset(variables, {"time": time}, dict(about))
 

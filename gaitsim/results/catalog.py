@@ -58,10 +58,10 @@ class Filter:
         Raises:
             Usage: No result can have such a word.
         """
-        for option, words in _CHOICES.items():
-            said = getattr(self, option)
-            if said is not None and said not in words:
-                raise Usage(f"--{option} {said}: write {' or '.join(words)}.")
+        for option, choices in _CHOICES.items():
+            value = getattr(self, option)
+            if value is not None and value not in choices:
+                raise Usage(f"--{option} {value}: write {' or '.join(choices)}.")
         if self.since is not None:
             try:
                 date.fromisoformat(self.since)

@@ -36,7 +36,7 @@ class Citations:
     """Entries sorted by key, and sources without a key: text -> what has this source."""
 
     entries: tuple[Citation, ...]
-    words: Mapping[str, tuple[str, ...]]
+    texts: Mapping[str, tuple[str, ...]]
 
 
 def citations(model: Model, bibliography: Mapping[str, str], algorithm: tuple[str, ...] = ()) -> Citations:
@@ -51,7 +51,7 @@ def citations(model: Model, bibliography: Mapping[str, str], algorithm: tuple[st
         InvalidSpec: Sources are not in the bibliography; the error has their places.
     """
     used: dict[str, list[str]] = defaultdict(list)
-    words: dict[str, list[str]] = defaultdict(list)
+    texts: dict[str, list[str]] = defaultdict(list)
     faults = Faults()
     for number, part in _numbers(model):
         keys = keys_of(number.source)
@@ -61,7 +61,7 @@ def citations(model: Model, bibliography: Mapping[str, str], algorithm: tuple[st
             else:
                 faults.add(unknown_key(key, set(bibliography)), _place(number, part), number.address)
         if not keys and number.source not in _UNSAID and not number.source.startswith("definition"):
-            words[number.source].append(number.address)
+            texts[number.source].append(number.address)
     for known in model.reproduces:
         for key in keys_of(known.source):
             if key in bibliography:
@@ -81,7 +81,7 @@ def citations(model: Model, bibliography: Mapping[str, str], algorithm: tuple[st
         used[key].append("optimize")
     entries = [Citation(key, bibliography[key], tuple(dict.fromkeys(used[key]))) for key in sorted(used)]
     own = Citation("gaitsim", _OWN, ("gaitsim",))
-    return Citations((own, *entries), {text: tuple(places) for text, places in sorted(words.items())})
+    return Citations((own, *entries), {text: tuple(places) for text, places in sorted(texts.items())})
 
 
 def _numbers(model: Model) -> Iterator[tuple[Number, Part | None]]:

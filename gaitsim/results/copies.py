@@ -29,7 +29,7 @@ class Copy:
     strange: bool
 
     @property
-    def words(self) -> str:
+    def comparison(self) -> str:
         """The comparison in words."""
         if not self.library:
             return "not in your libraries"

@@ -177,8 +177,8 @@ def _number(row: Mapping[str, Any] | None) -> str:
     if row is None:
         return ""
     unit = "" if row["unit"] == "1" else f" {row['unit']}"
-    said = f" ({row['expression']})" if "expression" in row else ""
-    return f"{row['value']!r}{unit}{said}"
+    expression = f" ({row['expression']})" if "expression" in row else ""
+    return f"{row['value']!r}{unit}{expression}"
 
 
 def _tuning(row: Mapping[str, Any]) -> str:
@@ -192,13 +192,13 @@ def _tuning(row: Mapping[str, Any]) -> str:
 
 def _places(model: Model) -> dict[str, str]:
     """What each part is fastened to: its attachments, and the frames of its points."""
-    return {part.address: said for part in model.parts if (said := _place(part))}
+    return {part.address: place for part in model.parts if (place := _place(part))}
 
 
 def _place(part: Part) -> str:
     points = {name: " ".join(dict.fromkeys(place.frame for place in each)) for name, each in part.points.items()}
     sides = {"mirrored": "yes"} if part.mirrored else {}
-    return ", ".join(f"{name}: {said}" for name, said in {**part.attachments, **points, **part.options, **sides}.items())
+    return ", ".join(f"{name}: {value}" for name, value in {**part.attachments, **points, **part.options, **sides}.items())
 
 
 def _senders(model: Model) -> dict[str, str]:

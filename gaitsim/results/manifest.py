@@ -112,7 +112,7 @@ def recorded_manifest(folder: Path) -> dict[str, Any]:
         manifest = json.loads(path.read_text(encoding="utf-8"))
         _Known.model_validate(manifest)
     except ValidationError as error:
-        rule = f"{_said(error.errors()[0])}, so this manifest was damaged or edited; restore it from a copy."
+        rule = f"{_rule(error.errors()[0])}, so this manifest was damaged or edited; restore it from a copy."
         raise BadResult(Fault(rule, Mark(str(path)))) from error
     except (OSError, ValueError, RecursionError) as error:
         rule = f"this manifest cannot be read ({getattr(error, 'strerror', None) or error}); restore it from a copy."
@@ -120,7 +120,7 @@ def recorded_manifest(folder: Path) -> dict[str, Any]:
     return {**manifest, "status": state_of(folder, manifest["status"])}
 
 
-def _said(fault: ErrorDetails) -> str:
+def _rule(fault: ErrorDetails) -> str:
     """The message for a wrong entry of a manifest."""
     place = ".".join(map(str, fault["loc"]))
     if fault["type"] == "missing":
@@ -161,8 +161,8 @@ def _edited(before: Mapping[str, str], bundle: Bundle) -> str:
         "removed": [path for path in before if path not in now],
         "added": [path for path in now if path not in before],
     }
-    said = [f"{', '.join(paths)} {'was' if len(paths) == 1 else 'were'} {verb}" for verb, paths in found.items() if paths]
-    return " and ".join(said) if before and said else "its spec or components were edited"
+    changes = [f"{', '.join(paths)} {'was' if len(paths) == 1 else 'were'} {verb}" for verb, paths in found.items() if paths]
+    return " and ".join(changes) if before and changes else "its spec or components were edited"
 
 
 def check_is_result(folder: Path) -> None:

@@ -108,6 +108,6 @@ def _setting(key: str) -> str:
         return ""
 
 
-def _git(*words: str, folder: Path) -> str:
-    ran = subprocess.run(["git", *words], cwd=folder, capture_output=True, check=True, timeout=10)
+def _git(*arguments: str, folder: Path) -> str:
+    ran = subprocess.run(["git", *arguments], cwd=folder, capture_output=True, check=True, timeout=10)
     return ran.stdout.decode("utf-8", "replace").rstrip()

@@ -57,7 +57,7 @@ class Record:
         self._manifest = new_manifest("run", bundle, mode, place, notices=list(model.notices), **(more or {}))
         if draws:
             self._manifest["draws"] = asdict(draws)
-        self._drawn = draws.values(problem_of(model)) if draws else []
+        self._samples = draws.values(problem_of(model)) if draws else []
         self._changes = changes_file(place)
         self._rows: list[dict[str, Any]] = []
         self._held = ExitStack()
@@ -90,7 +90,7 @@ class Record:
         """
         row = row_data(settings, outcome) | dict(more or {})
         if self._draws:
-            row |= {"draw": len(self._rows) + 1, "values": self._drawn[len(self._rows)]}
+            row |= {"draw": len(self._rows) + 1, "values": self._samples[len(self._rows)]}
         line = _line(row)
         if self.folder is None:
             more = {_ROWS: line, "README.md": readme(self._manifest, [], ""), **self._changes}
@@ -165,7 +165,7 @@ def _line(row: Mapping[str, Any]) -> str:
 
 
 def _row_text(row: Mapping[str, Any], units: Mapping[str, str]) -> str:
-    said = row_words(row)
+    label = row_words(row)
     found = {name: math.nan if v is None else v for name, v in row["metrics"].items()}
     numbers = ", ".join(f"{name} {with_unit(f'{v:.5g}', units.get(name, '1'))}" for name, v in found.items())
-    return f"{said + ': ' if said else ''}{row['status']}{': ' + numbers if numbers else ''}"
+    return f"{label + ': ' if label else ''}{row['status']}{': ' + numbers if numbers else ''}"

@@ -86,9 +86,9 @@ def row_words(row: Mapping[str, Any]) -> str:
     """What distinguishes a run: its body in a cohort, its settings such as gain = 2, or its draw; empty if nothing
     does.
     """
-    said = [f"{address} = {value}" for address, value in row["settings"].items()]
+    settings = [f"{address} = {value}" for address, value in row["settings"].items()]
     whose = [str(row["body"])] if "body" in row else []
-    return ", ".join([*whose, *said, *([f"draw {row['draw']}"] if "draw" in row else [])])
+    return ", ".join([*whose, *settings, *([f"draw {row['draw']}"] if "draw" in row else [])])
 
 
 def row_starts(row: Mapping[str, Any]) -> dict[str, float]:

@@ -63,9 +63,9 @@ def tuned_text(result: str, score: float | None, values: Mapping[str, float], un
         values: Values in SI by address.
         units: The units in which they are written.
     """
-    said = {a: v if units[a].text == "1" else units[a].exactly(v) for a, v in values.items()}
+    texts = {a: v if units[a].text == "1" else units[a].exactly(v) for a, v in values.items()}
     known = {} if score is None else {"score": score}
-    return dump({"about": _ABOUT, "format": _FORMAT, "result": result, **known, "values": said})
+    return dump({"about": _ABOUT, "format": _FORMAT, "result": result, **known, "values": texts})
 
 
 def read_tuned(path: Path, free: Iterable[Free]) -> TunedValues:

@@ -32,7 +32,7 @@ class Until:
         side = self._distance(at_first)
         return side * self._distance(outcome) > 0
 
-    def said(self, outcome: Outcome) -> str:
+    def ending_of(self, outcome: Outcome) -> str:
         """How a run ended, in words."""
         if outcome.status == "failed":
             return f"failed: {outcome.reason}"

@@ -24,7 +24,7 @@ class Adoption:
     """The outcome of --adopt: whether the file was written, and a message about it."""
 
     written: bool
-    words: str
+    message: str
 
 
 def adopted(tuning: Tuning, request: Request, workplace: Workplace, progress: Progress, force: bool) -> Adoption:
@@ -60,7 +60,7 @@ def adopted(tuning: Tuning, request: Request, workplace: Workplace, progress: Pr
 
 def _options(request: Request, workplace: Workplace) -> list[str]:
     """The options with which the command finds this search again."""
-    return ["--smoke" if request.smoke else "--resume", *request.words, *workplace.words]
+    return ["--smoke" if request.smoke else "--resume", *request.arguments, *workplace.arguments]
 
 
 def _reason(tuning: Tuning, path: Path, score: float) -> str:

@@ -206,16 +206,16 @@ def _asked(
             return [drawing for replay, address in own for drawing in muscles.figures_of(replay, address)]
         return plots.against_time(replays, text)
 
-    drawn = [partial(over_time, text) for text in plot if against is None]
-    drawn += [partial(plots.against_signal, replays, text, against) for text in plot if against is not None]
-    return [*drawn, *(partial(map_of, text) for text in return_maps)]
+    drawings = [partial(over_time, text) for text in plot if against is None]
+    drawings += [partial(plots.against_signal, replays, text, against) for text in plot if against is not None]
+    return [*drawings, *(partial(map_of, text) for text in return_maps)]
 
 
-def _say_missing(replays: list[Replay], words: Sequence[str], listener: Listener) -> None:
+def _say_missing(replays: list[Replay], texts: Sequence[str], listener: Listener) -> None:
     """Report the runs that lack a signal which others have."""
     from gaitsim.analysis.signals.selection import runs_without
 
-    for text in words:
+    for text in texts:
         without = runs_without(replays, text)
         if 0 < len(without) < len(replays):
             listener.say(f"{text}: {', '.join(without)} has no such signal")

@@ -35,10 +35,10 @@ from gaitsim.study.records import (
     Value,
     differences,
     finite,
-    kept,
     read_record,
     record_path,
     run_words,
+    updated,
     write_record,
 )
 from gaitsim.text.document import dump, plain
@@ -128,11 +128,11 @@ def versions(library: Library) -> dict[str, str]:
     return {reference: digest[:SHORT] for reference, digest in sorted((files | tables).items())}
 
 
-def archived(words: Sequence[str], folders: Sequence[Path] = ()) -> list[Archived]:
+def archived(names: Sequence[str], folders: Sequence[Path] = ()) -> list[Archived]:
     """Find specs.
 
     Args:
-        words: Names of shipped specs, paths of specs, and folders of specs; all shipped specs if there are none.
+        names: Names of shipped specs, paths of specs, and folders of specs; all shipped specs if there are none.
         folders: Folders of more components.
 
     Raises:
@@ -140,7 +140,7 @@ def archived(words: Sequence[str], folders: Sequence[Path] = ()) -> list[Archive
     """
     known, extra = shipped_specs(), tuple(folders)
     found: dict[Path, Archived] = {}
-    for word in words or known:
+    for word in names or known:
         path = Path(word)
         if word in known:
             one = [Archived(word, known[word], extra)]
@@ -209,14 +209,14 @@ def checked(specs: Sequence[Archived], listener: Listener) -> Iterator[Verdict]:
 def changes(before: MadeFrom, now: MadeFrom) -> tuple[str, ...]:
     """What has changed in the files that a model is made from, in words."""
     found = [word for word in ("spec", "tuned") if getattr(before, word) != getattr(now, word)]
-    said = {"spec": "the spec", "tuned": "its tuned values"}
+    names = {"spec": "the spec", "tuned": "its tuned values"}
     both = {**before.components, **now.components}
     components = [
         f"{reference} {before.components.get(reference, 'not there')} -> {now.components.get(reference, 'not there')}"
         for reference in sorted(both)
         if before.components.get(reference) != now.components.get(reference)
     ]
-    return (*(said[word] for word in found), *components)
+    return (*(names[word] for word in found), *components)
 
 
 Ran = list[tuple[Outcome, ...]]
@@ -274,7 +274,7 @@ def _written(spec: Archived, path: Path, found: Ran | GaitsimError) -> Recording
     except BadRecord:
         before = None
     if before is not None:
-        now = kept(before, now)
+        now = updated(before, now)
         if now == before:
             return Recording(spec, path, "unchanged")
     try:

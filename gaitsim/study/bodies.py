@@ -134,8 +134,8 @@ def _columns(heading: Sequence[str], mark: Mark, faults: Faults) -> list[_Column
             faults.add(f"{rule}.", mark, word)
     for address, count in Counter(column.address for column in columns).items():
         if count > 1:
-            words = " and ".join(column.heading for column in columns if column.address == address)
-            faults.add(f"{words} are one column {count} times; leave one.", mark)
+            headings = " and ".join(column.heading for column in columns if column.address == address)
+            faults.add(f"{headings} are one column {count} times; leave one.", mark)
     if not any(column.address for column in columns) and not faults.found:
         faults.add(f"no column says what differs between bodies; write such as {_SAMPLE}.", mark)
     return columns
@@ -186,18 +186,18 @@ def _undeclared(column: _Column) -> str:
 
 def _try(column: _Column, text: str, path: Path, opened: Opened, faults: Faults) -> None:
     """Check whether a column without numbers is another setting of the spec, such as a use:."""
-    words = ", ".join([_NAME, *_BODY])
+    columns = ", ".join([_NAME, *_BODY])
     if "." not in column.address:
         parameters = opened.document.entries.get("parameters")
         own = parameters.entries if isinstance(parameters, MappingNode) else {}
-        rule = f"neither a column of bodies ({words}) nor a parameter of this spec"
+        rule = f"neither a column of bodies ({columns}) nor a parameter of this spec"
         faults.add(f"{rule}. {did_you_mean(column.heading, [_NAME, *_BODY, *own])}", column.mark, column.heading)
         return
     try:
         opened.model(override(opened.document, column.address, text or "null", str(path)))
     except (InvalidSpec, Usage) as error:
         rule = " ".join(dict.fromkeys(fault.message for fault in error.faults))
-        faults.add(f"no column of bodies ({words}), and in the spec: {rule}", column.mark, column.heading)
+        faults.add(f"no column of bodies ({columns}), and in the spec: {rule}", column.mark, column.heading)
 
 
 def _body(

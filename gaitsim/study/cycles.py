@@ -52,7 +52,7 @@ class Cycle:
         """Whether small disturbances decay."""
         return max(map(abs, self.eigenvalues)) < 1
 
-    def shown(self, name: str) -> float:
+    def in_unit(self, name: str) -> float:
         """A number of the start or a metric in its shown unit."""
         return parse_unit(self.units[name]).of({**self.metrics, **self.start}[name])
 
@@ -95,14 +95,14 @@ class ReturnMap:
         """All metrics of a run that ends at a passage, in SI. Raises the errors of a call."""
         self.runs += 1
         outcome = self._simulator.run([*self.model.start, *map(float, start), float(passages)])
-        said = ", ".join(f"{name} = {value:.6g}" for name, value in zip(self.names, start, strict=True))
+        numbers = ", ".join(f"{name} = {value:.6g}" for name, value in zip(self.names, start, strict=True))
         if outcome.status == "failed":
-            raise SimulationFailed(f"from {said}: {outcome.reason}")
+            raise SimulationFailed(f"from {numbers}: {outcome.reason}")
         count = min(outcome.metrics[f"{measure}.passages"] for measure in self.measures)
         if count < passages:
             ended = outcome.reason if outcome.status == "stopped" else "the run ends"
             when = f"{ended} after {outcome.simulated_seconds:.4g} s"
-            rule = f"from {said} there is no return to the section: {when}"
+            rule = f"from {numbers} there is no return to the section: {when}"
             raise SimulationFailed(f"{rule}; start nearer to a gait, or make the run longer.")
         units = self.model.metrics
         return {name: parse_unit(units[name]).to_si(value) for name, value in outcome.metrics.items()}
@@ -165,8 +165,8 @@ def fixed_point(of: ReturnMap, start: Floats, report: Callable[[int, int], None]
         if float(np.abs(away).max()) < _CLOSED:
             return _cycle(of, start, slopes, float(np.abs(away).max()))
         start = _next(of, start, step, away)
-    said = ", ".join(f"{name} = {value:.6g}" for name, value in zip(of.names, start, strict=True))
-    rule = f"Newton's method finds no periodic gait; it came to {said}"
+    numbers = ", ".join(f"{name} = {value:.6g}" for name, value in zip(of.names, start, strict=True))
+    rule = f"Newton's method finds no periodic gait; it came to {numbers}"
     raise SimulationFailed(f"{rule}; start nearer to one, with --set {of.names[0]}=VALUE.")
 
 

@@ -62,6 +62,6 @@ def summary(rows: Iterable[Compared]) -> str:
     found = list(rows)
     judged = [row.holds for row in found if row.holds is not None]
     shares = [abs(row.share) for row in found if row.share is not None]
-    said = [f"{sum(judged)} of {len(judged)} within tolerance"] if judged else []
-    said += [f"differs by up to {100 * max(shares):.2g} %"] if shares else []
-    return ", ".join(said)
+    texts = [f"{sum(judged)} of {len(judged)} within tolerance"] if judged else []
+    texts += [f"differs by up to {100 * max(shares):.2g} %"] if shares else []
+    return ", ".join(texts)

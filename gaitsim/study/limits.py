@@ -201,7 +201,7 @@ class LimitRuns:
             if not limit.bracket.held[0.0]:
                 beside = "".join(f" at {address} = {value}" for address, value in limit.beside.items())
                 mark = Mark(f"--vary {limit.address}={limit.at(0)}:{limit.at(1)}{beside}")
-                rule = f"the run fails at the first end, {limit.at(0)} ({self.until.said(limit.outcomes[0.0])})"
+                rule = f"the run fails at the first end, {limit.at(0)} ({self.until.ending_of(limit.outcomes[0.0])})"
                 faults.append(Fault(f"{rule}; start the range at a value with which it succeeds.", mark))
         if faults:
             raise SimulationFailed(faults)

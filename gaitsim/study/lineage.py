@@ -42,7 +42,7 @@ class _Commit:
     path: str
 
     @property
-    def words(self) -> str:
+    def summary(self) -> str:
         return f"commit {self.hash[:8]} by {self.author}: {self.subject}"
 
 
@@ -68,7 +68,7 @@ def history(
         for commit in _commits(path, library):
             digest = _at(commit, path.parent, library)
             if digest:
-                found.setdefault(digest, (commit.date, commit.words))
+                found.setdefault(digest, (commit.date, commit.summary))
         found.setdefault(now[:SHORT], ("", _UNCOMMITTED))
     for result in results:
         found.setdefault(result.version, (result.created, f"result {shown(result.folder)}"))
@@ -124,10 +124,10 @@ def _at(commit: _Commit, folder: Path, library: Library) -> str:
     return digest_of(whole(text, shared))[:SHORT]
 
 
-def _git(folder: Path, *words: str) -> str:
+def _git(folder: Path, *arguments: str) -> str:
     """The output of git; empty outside of a checkout, or without git."""
     # A checkout can configure a file monitor, which git would start.
-    command = ["git", "-c", "core.fsmonitor=false", "-c", "core.quotePath=false", *words]
+    command = ["git", "-c", "core.fsmonitor=false", "-c", "core.quotePath=false", *arguments]
     try:
         ran = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=30, encoding="utf-8")
     except (OSError, subprocess.SubprocessError, UnicodeDecodeError):

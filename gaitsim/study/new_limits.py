@@ -37,9 +37,9 @@ def new_or_resumed(
         GaitsimError: As of `hunted` and of `resumed`.
     """
     if resume:
-        said = next((name for name, value in asked.items() if value is not None), "no-save" if root is None else None)
-        if said:
-            raise Usage(f"--{said} begins new limits, and --resume continues old ones; leave one out.")
+        option = next((name for name, value in asked.items() if value is not None), "no-save" if root is None else None)
+        if option:
+            raise Usage(f"--{option} begins new limits, and --resume continues old ones; leave one out.")
         return resumed(opening, listener)
     if not asked["vary"]:
         rule = "nothing says what is varied; add a range, such as --vary push.strength='0 N:1000 N'"

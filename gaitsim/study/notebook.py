@@ -105,9 +105,9 @@ def run(
 
     varied = ranges(vary)
     file = None if out is None else Path(out)
-    drawn = draws_asked(draws, within, seed, varied, file)
+    samples = draws_asked(draws, within, seed, varied, file)
     opened = opening(path, set, library, start, trust, candidate, results)
-    runs = prepared(opened, varied, drawn, mode, Places(_root(results) if save else None, file, every), LogListener())
+    runs = prepared(opened, varied, samples, mode, Places(_root(results) if save else None, file, every), LogListener())
     runs.run(LogListener())
     if runs.unsaved:
         LogListener().say_error(runs.unsaved)
@@ -291,8 +291,8 @@ def ranges(vary: Mapping[str, str | Sequence[Any]] | None) -> list[str]:
     return [f"{address}={_values(values)}" for address, values in (vary or {}).items()]
 
 
-def _several(words: str | Sequence[str]) -> tuple[str, ...]:
-    return (words,) if isinstance(words, str) else tuple(words)
+def _several(texts: str | Sequence[str]) -> tuple[str, ...]:
+    return (texts,) if isinstance(texts, str) else tuple(texts)
 
 
 def _values(values: str | Sequence[Any]) -> str:

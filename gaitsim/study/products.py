@@ -52,9 +52,9 @@ class Products:
         self.listener.say_error(error)
         self.faults.append(error)
 
-    def remark(self, words: Sequence[str]) -> None:
+    def remark(self, remarks: Sequence[str]) -> None:
         """Report something that is missing and is not a failure."""
-        for word in words:
+        for word in remarks:
             self.listener.say(word)
             self.lacks.append(word)
 

@@ -108,8 +108,8 @@ def _read(path: Path) -> Project:
         found = plain(read(path))
     except (InvalidSpec, OSError):
         found = {}
-    said = [str(found.get(key, "damaged")) for key in ("author", "date", "from")]
-    return Project(path.parent, path.parent.name, *said)
+    fields = [str(found.get(key, "damaged")) for key in ("author", "date", "from")]
+    return Project(path.parent, path.parent.name, *fields)
 
 
 @dataclass(frozen=True)
@@ -254,14 +254,14 @@ def _marker(project: Project, bundle: Bundle) -> str:
 
 def _readme(project: Project, origin: str, copied: Mapping[str, str], opening: Opening) -> str:
     own = [path for path in copied if is_component(Path(path))]
-    said = f"Copied from there, because no library serves them as they were: {', '.join(f'`{p}`' for p in own)}."
+    sentence = f"Copied from there, because no library serves them as they were: {', '.join(f'`{p}`' for p in own)}."
     return _README.format(
         name=project.name,
         author=project.author,
         day=project.date,
         where=f"`{project.origin}`",
         origin=origin,
-        copied=said if own else "All its components are served by the libraries of the lab and of gaitsim.",
+        copied=sentence if own else "All its components are served by the libraries of the lab and of gaitsim.",
         compared=os.path.relpath(opening.path, project.folder) if opening.names_result else f"{origin}.yaml",
     )
 

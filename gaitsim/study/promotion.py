@@ -248,7 +248,7 @@ def _run_test(staged: Path, own: Path) -> None:
     """
     if importlib.util.find_spec("pytest") is None:
         raise Usage("promoting a component runs its test with pytest, which is not installed: pip install pytest")
-    words = [
+    requirements = [
         sys.executable,
         "-m",
         "pytest",
@@ -259,7 +259,7 @@ def _run_test(staged: Path, own: Path) -> None:
         str(staged.parent),
         str(staged),
     ]
-    ran = subprocess.run(words, cwd=staged.parent, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+    ran = subprocess.run(requirements, cwd=staged.parent, capture_output=True, text=True, stdin=subprocess.DEVNULL)
     if ran.returncode:
         output = "\n".join(f"{ran.stdout}\n{ran.stderr}".strip().splitlines()[-_LINES:])
         rule = "this test does not pass beside the library, so nothing was promoted; correct it, or the component"
@@ -268,7 +268,7 @@ def _run_test(staged: Path, own: Path) -> None:
 
 def _users(request: Request, stage: Path, listener: Listener) -> tuple[Effect, ...]:
     """The results of the users of the present component with the new version."""
-    scope = Scope(request.scope.words, request.scope.results, (stage, *request.scope.folders))
+    scope = Scope(request.scope.names, request.scope.results, (stage, *request.scope.folders))
     return tuple(tested(request.reference, scope, False, listener))
 
 

@@ -180,7 +180,7 @@ def _of_number(run: str, name: str, old: Value | None, new: Value | None) -> Ite
         yield Difference(run, name, old.unit, old.value, new.value, old.tolerance)
 
 
-def kept(before: Recorded, now: Recorded) -> Recorded:
+def updated(before: Recorded, now: Recorded) -> Recorded:
     """A new record. Numbers that still agree with the record before keep its values.
 
     A record therefore does not drift with many small changes, and another machine does not rewrite it.

@@ -56,7 +56,7 @@ class Request:
     origin: str | None = None
 
     @property
-    def words(self) -> list[str]:
+    def arguments(self) -> list[str]:
         """The options that --resume needs again: settings and libraries."""
         settings = [word for text in self.opening.settings for word in ("--set", text)]
         return [*settings, *(word for folder in self.opening.folders for word in ("--library", str(folder)))]
@@ -198,8 +198,8 @@ def _search_of(opened: Opened, request: Request) -> dict[str, Any]:
     section = optimize_section(opened.document)
     asked = {n: getattr(request, n) for n in ("algorithm", "population", "generations", "seed")}
     smoke = _SMOKE if request.smoke else {}
-    said = section.model_dump(include={*SearchSection.model_fields})
-    found = said | smoke | {name: value for name, value in asked.items() if value is not None}
+    settings = section.model_dump(include={*SearchSection.model_fields})
+    found = settings | smoke | {name: value for name, value in asked.items() if value is not None}
     if found["algorithm"] not in ALGORITHMS:
         hint = did_you_mean(found["algorithm"], ALGORITHMS)
         raise Usage(f"--algorithm {found['algorithm']}: there is no such algorithm. {hint}")
@@ -236,8 +236,8 @@ def _check_same_spec(request: Request, folder: Path, bundle: Bundle) -> None:
     before = {path: text for path, text in bundle.files.items() if path != START}
     changed = sorted(path for path in {*now, *before} if now.get(path) != before.get(path))
     if changed:
-        words = ["spec.yaml (or its --set)" if path == SPEC else path for path in changed]
-        rule = f"what {folder} was started with has changed since: {', '.join(words)}"
+        files = ["spec.yaml (or its --set)" if path == SPEC else path for path in changed]
+        rule = f"what {folder} was started with has changed since: {', '.join(files)}"
         old = command("optimize", folder, "--resume")
         move = f"continue the old one: {old}; or start a new search with --from {quote(str(folder))}"
         raise InvalidSpec(Fault(f"{rule}; {move}.", Mark(str(request.opening.path))))

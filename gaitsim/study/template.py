@@ -70,9 +70,9 @@ def study(origin: str) -> dict[str, str]:
 
 def _without_own(readme: str) -> str:
     """The text for a model without a muscle feedback, so that none was replaced."""
-    kept = [line for line in readme.splitlines(keepends=True) if not (line.startswith("| `") and "my_" in line)]
+    lines = [line for line in readme.splitlines(keepends=True) if not (line.startswith("| `") and "my_" in line)]
     begin = "    gaitsim library new controller my_reflex           # a component of your own\n\n"
-    text = "".join(kept).replace("my_{origin}", "{origin}")
+    text = "".join(lines).replace("my_{origin}", "{origin}")
     return text.replace("Change the equation in `components/controller/my_reflex.py`, then:\n\n", begin)
 
 

@@ -43,13 +43,13 @@ class Scope:
     """Where users of components are searched for.
 
     Attributes:
-        words: Specs and folders of specs; if empty, the shipped ones, those in this folder, and those of the lab's
+        names: Specs and folders of specs; if empty, the shipped ones, those in this folder, and those of the lab's
             projects.
         results: Folders of results.
         folders: Folders of more components, which are searched before all others except those beside a spec.
     """
 
-    words: tuple[str, ...]
+    names: tuple[str, ...]
     results: tuple[Path, ...]
     folders: tuple[Path, ...] = ()
 
@@ -81,8 +81,8 @@ class Scope:
         Raises:
             Usage: The request does not fit.
         """
-        if self.words:
-            return archived(self.words, self.folders)
+        if self.names:
+            return archived(self.names, self.folders)
         lab, here = lab_of(Path.cwd()), Path()
         folders = [here, *(sorted((lab / "projects").glob("*/")) if lab else [])]
         own = [path for folder in folders for path in sorted(folder.glob("*.yaml")) if _is_spec(path)]
@@ -133,8 +133,8 @@ def using_results(reference: str, scope: Scope, listener: Listener) -> Iterator[
             listener.say_error(error)
             continue
         if version is not None:
-            said = [str(manifest[key]) for key in ("kind", "mode")]
-            found.append(UsingResult(folder, str(manifest["created"]), version[:SHORT], bundle, *said))
+            fields = [str(manifest[key]) for key in ("kind", "mode")]
+            found.append(UsingResult(folder, str(manifest["created"]), version[:SHORT], bundle, *fields))
     yield from sorted(found, key=lambda each: (each.created, str(each.folder)))
 
 

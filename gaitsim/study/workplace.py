@@ -40,11 +40,11 @@ class Workplace:
             raise Usage(f"--workers {self.workers}: a number of processes, or 0 for this one.")
 
     @property
-    def words(self) -> list[str]:
+    def arguments(self) -> list[str]:
         """The options that describe this workplace."""
         named = {"--workers": self.workers, "--scheduler": self.scheduler, "--scheduler-file": self.scheduler_file}
-        said = [word for option, value in named.items() if value is not None for word in (option, str(value))]
-        return ["--cluster", *said] if self.cluster else said
+        options = [word for option, value in named.items() if value is not None for word in (option, str(value))]
+        return ["--cluster", *options] if self.cluster else options
 
     def evaluator(self, task: Task, say: Callable[[str], None]) -> Evaluator:
         """Make the evaluator of a bundle's candidates.

@@ -8,7 +8,7 @@ from pathlib import Path
 import llvmlite.binding as llvm
 import pytest
 
-from gaitsim.cache import kept
+from gaitsim.cache import cached
 from gaitsim.compiler import compilation
 from gaitsim.compiler.kernel import Kernel, kernel_of
 from gaitsim.components.find import Library, shipped_folder
@@ -48,7 +48,7 @@ def test_all_are_compiled_with_one_helper_for_the_second_core(helpers: list[subp
     kernels = [kernel_of(each) for each in primitives()]
     made = compilation.bitcode_of(kernels)
     assert all(map(has, made, kernels))
-    assert all(has(kept("kernels", kernel.name), kernel) for kernel in kernels)
+    assert all(has(cached("kernels", kernel.name), kernel) for kernel in kernels)
     assert len(helpers) == 1 and helpers[0].poll() is not None, "it has ended"
     compilation.bitcode_of(kernels)
     assert len(helpers) == 1, "nothing is missing, so no one helps"
@@ -58,7 +58,7 @@ def test_all_are_compiled_with_one_helper_for_the_second_core(helpers: list[subp
 def test_a_helper_compiles_what_it_is_given() -> None:
     kernels = [kernel_of(each) for each in primitives()[:2]]
     assert compilation._helper(kernels).wait() == 0
-    assert all(has(kept("kernels", kernel.name), kernel) for kernel in kernels)
+    assert all(has(cached("kernels", kernel.name), kernel) for kernel in kernels)
 
 
 def test_what_cannot_become_native_code_is_told_here(

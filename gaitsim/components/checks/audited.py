@@ -9,7 +9,7 @@ from functools import cache
 from pathlib import Path
 
 import gaitsim
-from gaitsim.cache import keep, kept
+from gaitsim.cache import cached, keep
 from gaitsim.components.checks.findings import Findings
 
 _RULES = ("component.py", "units.py", "components/*.py", "components/checks/*.py", "text/expression.py")
@@ -24,7 +24,7 @@ def sound_findings(text: str) -> Findings | None:
     Returns:
         What was found in it; None if the text is not in the cache.
     """
-    known = kept("audited", _key(text))
+    known = cached("audited", _key(text))
     if known is None:
         return None
     found = json.loads(known)
