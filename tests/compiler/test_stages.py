@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -67,7 +68,7 @@ def test_a_force_at_its_limit_is_not_damped() -> None:
     m, d = physics.model, physics.data
     other = mujoco.MjData(m)
     m.actuator_forcelimited[:], m.actuator_forcerange[:] = True, (-20, 20)
-    physics = Physics(physics.program, physics._built_for, physics._assembly, d, type(physics.stages).of(m, d))
+    physics = replace(physics, stages=type(physics.stages).of(m, d))
     for field in ("qpos", "qvel", "ctrl", "qfrc_applied"):
         getattr(other, field)[:] = getattr(d, field)
     physics.look()
