@@ -71,12 +71,12 @@ def parse_expression(text: str, unit: str, scope: _Scope) -> Expression:
     Raises:
         BadExpression: It cannot be read, names something else, or has another unit.
     """
-    tree, words = _parsed(text)
+    tree, variables = _parsed(text)
     found = _dimension(tree.body, scope, text)
     declared = parse_unit(unit).dimension
     if declared.without_angle != found and unit != "*" and not _open(found):
         raise BadExpression(f"={text} gives {found}; this needs {declared}, so multiply or divide by what is missing.")
-    names = tuple((name, scope[name][0]) for name in words if name in scope)
+    names = tuple((name, scope[name][0]) for name in variables if name in scope)
     return Expression(f"={text}", _code(text), names)
 
 
@@ -99,16 +99,16 @@ def _parsed(text: str) -> tuple[ast.Expression, tuple[str, ...]]:
         if re.search(r"\d\s+[A-Za-z%]", text):
             rule = f"={text}: a number in an expression has no unit; declare it under parameters: and use its name."
             raise BadExpression(rule) from error
-        said = getattr(error, "msg", None) or "it is nested too deeply"
-        raise BadExpression(f"={text} cannot be read ({said}); write it like =0.5 * height.") from error
+        reason = getattr(error, "msg", None) or "it is nested too deeply"
+        raise BadExpression(f"={text} cannot be read ({reason}); write it like =0.5 * height.") from error
     for node in ast.walk(tree):
         if isinstance(node, ast.Constant) and type(node.value) is int:
             try:
                 node.value = float(node.value)
             except OverflowError as error:
                 raise BadExpression(f"={text} has a number that is too large; write one below 1.8e308.") from error
-    words = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    return tree, tuple(sorted(words))
+    variables = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
+    return tree, tuple(sorted(variables))
 
 
 def _open(dimension: Dimension) -> bool:

@@ -139,8 +139,8 @@ def comma_within(node: SequenceNode) -> str:
             ending = str(second.value)
             alone = len(items) == 2 and type(second.value) is int
             if ending[:1].isdigit() and (alone or _has_unit(ending)) and _is_quantity(f"{first.value}.{ending}"):
-                said, meant = f"{first.value},{ending}", f"{first.value}.{ending}"
-                return f' A comma separates items; if "{said}" is one number, write {meant}.'
+                wrong, meant = f"{first.value},{ending}", f"{first.value}.{ending}"
+                return f' A comma separates items; if "{wrong}" is one number, write {meant}.'
     return ""
 
 
@@ -223,8 +223,8 @@ def mismatch(quantity: Quantity, declared: Unit) -> str:
     if given.dimension.plain:
         return f"{given.text} makes a plain number; {needed(declared.text)}."
     named = measured(given) == given.noun_phrase
-    words = f"a unit of {given.noun_phrase.removeprefix('a ').removeprefix('an ')}" if named else "another unit"
-    return f"{given.text} is {words}; {needed(declared.text)}."
+    meaning = f"a unit of {given.noun_phrase.removeprefix('a ').removeprefix('an ')}" if named else "another unit"
+    return f"{given.text} is {meaning}; {needed(declared.text)}."
 
 
 def quoted(node: Node) -> str:
