@@ -117,9 +117,9 @@ class Wiring:
         given, asked = self._unit(sender, "outputs"), self._unit(target, "inputs")
         if "*" in (given, asked) or parse_unit(given).dimension == parse_unit(asked).dimension:
             return True
-        words = f"{sender} is {measured(parse_unit(given))} [{given}]"
+        sent = f"{sender} is {measured(parse_unit(given))} [{given}]"
         rule = f"{target} takes {measured(parse_unit(asked))} [{asked}]; connect another output."
-        self.faults.add(f"{words} but {rule}", mark, target)
+        self.faults.add(f"{sent} but {rule}", mark, target)
         return False
 
     def _unit(self, port: str, ports: str) -> str:

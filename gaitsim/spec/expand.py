@@ -164,11 +164,11 @@ class Expansion:
         self, node: MappingNode, found: ComponentFile, where: Where, swapped: frozenset[str]
     ) -> MappingNode:
         """The entry without the keys that a component from `use:` lacks; other unknown keys are faults."""
-        dropped = [word for word in node.entries if word in swapped and word not in (*found.words, *_STRUCTURE)]
+        dropped = [word for word in node.entries if word in swapped and word not in (*found.keys, *_STRUCTURE)]
         self.notices += [f"{where.address}: {found.reference} has no {word}; dropped" for word in dropped]
         self.dropped |= {node.keys[word] for word in dropped}
-        kept = without(node, *dropped)
-        return respelled(kept, found.words, f"{found.reference} has no", self.faults, where.address, more=_STRUCTURE)
+        rest = without(node, *dropped)
+        return respelled(rest, found.keys, f"{found.reference} has no", self.faults, where.address, more=_STRUCTURE)
 
     def _composite(self, found: Composite, node: MappingNode, where: Where) -> None:
         chain = where.scope.references
@@ -391,7 +391,7 @@ def sides(node: Node, faults: Faults | None = None, name: str = "") -> tuple[str
     words = tuple(str(item.value) for item in items if isinstance(item, ScalarNode))
     if not words or len(set(words)) != len(items) or not set(words) <= set(_SIDES):
         if faults is not None:
-            said = f'"{", ".join(words)}" names no sides' if words else "this names no sides"
-            faults.add(f"{said}; write sides: [l, r], [l] or [r].", given.mark, name)
+            rule = f'"{", ".join(words)}" names no sides' if words else "this names no sides"
+            faults.add(f"{rule}; write sides: [l, r], [l] or [r].", given.mark, name)
         return ()
     return words

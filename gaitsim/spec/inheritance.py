@@ -218,11 +218,11 @@ def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], Mapp
         ) from error
 
 
-def without(node: MappingNode, *words: str) -> MappingNode:
+def without(node: MappingNode, *names: str) -> MappingNode:
     """The mapping without some keys; the same object if it has none of them."""
-    if node.entries.keys().isdisjoint(words):
+    if node.entries.keys().isdisjoint(names):
         return node
-    entries = {name: inner for name, inner in node.entries.items() if name not in words}
+    entries = {name: inner for name, inner in node.entries.items() if name not in names}
     return MappingNode(entries, {name: node.keys[name] for name in entries}, node.mark, node.swapped)
 
 
@@ -232,15 +232,15 @@ def without_marked(node: Node, marks: Set[Mark]) -> Node:
         return SequenceNode(tuple(without_marked(item, marks) for item in node.items), node.mark)
     if not isinstance(node, MappingNode):
         return node
-    kept = {key: without_marked(inner, marks) for key, inner in node.entries.items() if node.keys[key] not in marks}
-    return MappingNode(kept, {key: node.keys[key] for key in kept}, node.mark, node.swapped)
+    rest = {key: without_marked(inner, marks) for key, inner in node.entries.items() if node.keys[key] not in marks}
+    return MappingNode(rest, {key: node.keys[key] for key in rest}, node.mark, node.swapped)
 
 
-def _words(address: str, said: str) -> tuple[str, ...]:
+def _words(address: str, origin: str) -> tuple[str, ...]:
     words = tuple(word.strip() for word in address.split("."))
     if not all(words):
         rule = "an address is words with one dot between them"
-        raise Usage(f"{said}: {rule}, such as leg.knee.damping.")
+        raise Usage(f"{origin}: {rule}, such as leg.knee.damping.")
     return words
 
 
@@ -280,7 +280,7 @@ def _with(
         item = _with(node.items[at], tuple(rest), path, value, mark, faults) if rest else value
         return SequenceNode((*node.items[:at], item, *node.items[at + 1 :]), node.mark)
     if isinstance(node, ScalarNode) and node.value is not None:
-        rule = f"{walked[-1]} is {_said(node.value)}, with no {word} inside"
+        rule = f"{walked[-1]} is {_value_text(node.value)}, with no {word} inside"
         faults.add(f"{rule}; set {_address(walked)} as a whole.", mark, _address(walked))
         return node
     ground = node if isinstance(node, MappingNode) else MappingNode({}, {}, mark)
@@ -293,7 +293,7 @@ def _with(
     return MappingNode(entries, keys, ground.mark, _swapped(ground, MappingNode(entries, keys, mark)))
 
 
-def _said(value: bool | float | str | None) -> str:
+def _value_text(value: bool | float | str | None) -> str:
     return str(value).lower() if isinstance(value, bool) else str(value)
 
 

@@ -83,8 +83,8 @@ class NumberTable:
                 if not math.isfinite(values[i]):
                     raise ArithmeticError("it is not finite")
             except (ArithmeticError, ValueError) as error:
-                said = "it divides by zero" if isinstance(error, ZeroDivisionError) else error
-                rule = f"{each.expression.text} has no value here ({said}); correct it, or the numbers in it."
+                reason = "it divides by zero" if isinstance(error, ZeroDivisionError) else error
+                rule = f"{each.expression.text} has no value here ({reason}); correct it, or the numbers in it."
                 self.faults.add(rule, node.mark, each.address)
                 return
             self._within(values[i], declared, node, each.address)
@@ -222,10 +222,10 @@ class NumberTable:
         given = unit.of(value)
         if not low - 1e-12 * abs(low) <= given <= high + 1e-12 * abs(high):
             shown = unit.shown(value)
-            words = quoted(node) if isinstance(node, ScalarNode) else f'"{shown}"'
-            if words != f'"{shown}"':
-                words += f" is {shown}, which"
-            rule = f"{words} is outside {unit.span(unit.to_si(low), unit.to_si(high))}"
+            value_text = quoted(node) if isinstance(node, ScalarNode) else f'"{shown}"'
+            if value_text != f'"{shown}"':
+                value_text += f" is {shown}, which"
+            rule = f"{value_text} is outside {unit.span(unit.to_si(low), unit.to_si(high))}"
             self.faults.add(f"{rule}; choose a value between.", node.mark, address)
 
 

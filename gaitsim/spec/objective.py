@@ -101,8 +101,8 @@ def _metrics(alone: Expansion, address: str, units: Mapping[str, str]) -> dict[s
             continue
         given, asked = units[wire.sender], alone.parts[0].type.inputs[name].unit
         if "*" not in (given, asked) and parse_unit(given).dimension != parse_unit(asked).dimension:
-            words = f"{wire.sender} is {measured(parse_unit(given))} [{given}]"
+            sent = f"{wire.sender} is {measured(parse_unit(given))} [{given}]"
             rule = f"{name} takes {measured(parse_unit(asked))} [{asked}]; choose another metric."
-            alone.faults.add(f"{words} but {rule}", wire.mark, wire.target)
+            alone.faults.add(f"{sent} but {rule}", wire.mark, wire.target)
         metrics[name] = wire.sender
     return metrics

@@ -144,9 +144,9 @@ class PortReader:
         if value in declared.choices and (given is None or isinstance(given, ScalarNode)):
             return str(value)
         choices = ", ".join(declared.choices)
-        said = "is not said" if given is None else f"cannot be {quoted(given)}"
+        rule = "is not said" if given is None else f"cannot be {quoted(given)}"
         mark = given.mark if given else where.mark
-        self.faults.add(f"{name} {said}; choose one of {choices}.", mark, where.address)
+        self.faults.add(f"{name} {rule}; choose one of {choices}.", mark, where.address)
         return declared.choices[0]
 
     def _send(self, output: str, node: Node, where: Where) -> None:

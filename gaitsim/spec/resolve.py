@@ -72,10 +72,10 @@ def resolve(document: MappingNode, library: Library, name: str) -> Model:
     connections = wiring.connections()
     parts = tuple(wiring.completed(part) for part in expansion.parts)
     initial = _initial(_section(document, "initial"), wiring, scope)
-    objective, said = None, _section(document, "objective")
+    objective, section = None, _section(document, "objective")
     units = metric_units(parts, connections)
-    if said.entries:
-        objective = read_objective(said, document.keys["objective"], expansion, units, scope)
+    if section.entries:
+        objective = read_objective(section, document.keys["objective"], expansion, units, scope)
     faults.raise_if_any()
     table.check_computed()
     known = known_values(document.entries.get("reproduces"), units, faults)

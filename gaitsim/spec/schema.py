@@ -65,8 +65,8 @@ def _combination(value: object) -> str:
     word, _, share = text.partition(" ")
     if text in ("mean", "worst") or (word == "quantile" and _SHARE.fullmatch(share)):
         return text
-    said = f'"{value}" is not a way' if isinstance(value, str | int | float) else "this is not a way"
-    rule = f"{said} to combine scores; write mean, worst, or such as quantile 0.9 (from 0 to 1)."
+    problem = f'"{value}" is not a way' if isinstance(value, str | int | float) else "this is not a way"
+    rule = f"{problem} to combine scores; write mean, worst, or such as quantile 0.9 (from 0 to 1)."
     raise PydanticCustomError("quantity", "{text}", {"text": rule})
 
 
@@ -246,8 +246,8 @@ def _report(detail: Any, document: MappingNode, faults: Faults) -> None:
         case "greater_than_equal":
             faults.add(f"{detail['input']} is too small; the smallest value is {detail['ctx']['ge']}.", mark, address)
         case "greater_than" | "less_than_equal":
-            words = {"gt": "above", "le": "at most"}
-            (limit,) = (f"{words[key]} {value:g}" for key, value in detail["ctx"].items() if key in words)
+            relations = {"gt": "above", "le": "at most"}
+            (limit,) = (f"{relations[key]} {value:g}" for key, value in detail["ctx"].items() if key in relations)
             faults.add(f"{detail['input']} is out of range; this is {limit}.", mark, address)
         case "float_type" | "float_parsing":
             faults.add(f'"{detail["input"]}" is not a number; write {name}: 0.5.', mark, address)

@@ -71,14 +71,14 @@ def read_series(
             faults.add(fault.message, fault.mark, fault.address)
         return None
     if column not in table.columns:
-        said = f"{reference} has no column {column}" if column else f"{text} names no column"
-        faults.add(f"{said}; choose {', '.join(f'{reference}.{c}' for c in table.columns)}.", node.mark, address)
+        problem = f"{reference} has no column {column}" if column else f"{text} names no column"
+        faults.add(f"{problem}; choose {', '.join(f'{reference}.{c}' for c in table.columns)}.", node.mark, address)
         return None
     given_unit = table.units[column]
     if declared.unit != "*" and parse_unit(given_unit).dimension != parse_unit(declared.unit).dimension:
-        words = f"{text} is {measured(parse_unit(given_unit))} [{given_unit}]"
+        given_text = f"{text} is {measured(parse_unit(given_unit))} [{given_unit}]"
         rule = f"{name} takes {measured(parse_unit(declared.unit))} [{declared.unit}]; choose another column."
-        faults.add(f"{words} but {rule}", node.mark, address)
+        faults.add(f"{given_text} but {rule}", node.mark, address)
         return None
     return Recording(table.curve(column, declared.size), text, table.recorded_by, given_unit)
 
