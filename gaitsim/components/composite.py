@@ -49,7 +49,7 @@ class Composite:
         return self.reference.split("/")[0]
 
     @property
-    def words(self) -> list[str]:
+    def keys(self) -> list[str]:
         """The keys that an entry of a spec may have for this component."""
         return [*self.parameters, *self.inputs, *self.attachments, *self.parts.entries]
 
@@ -104,7 +104,7 @@ def load_composite(reference: str, path: Path, shown: str, text: str) -> Composi
 
 def _told_apart(sections: dict[str, MappingNode], faults: Faults) -> None:
     """A fault for each name that an entry of a spec could mean in two ways, such as a parameter and an input."""
-    said: dict[str, str] = {}
+    meanings: dict[str, str] = {}
     for section, what in (
         ("parameters", "a parameter"),
         ("inputs", "an input"),
@@ -112,11 +112,11 @@ def _told_apart(sections: dict[str, MappingNode], faults: Faults) -> None:
         ("parts", "a part"),
     ):
         for name, key in sections[section].keys.items():
-            if name in said:
+            if name in meanings:
                 faults.add(
-                    f"{name} is {said[name]} and {what}; an entry of a spec means one; rename one of the two.", key
+                    f"{name} is {meanings[name]} and {what}; an entry of a spec means one; rename one of the two.", key
                 )
-            said.setdefault(name, what)
+            meanings.setdefault(name, what)
 
 
 def declared_parameters(section: MappingNode, faults: Faults) -> tuple[dict[str, Parameter], dict[str, Node]]:

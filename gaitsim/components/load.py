@@ -152,11 +152,11 @@ def raised(component: Primitive, function: str, address: str, error: Exception) 
         address: The address of the part.
         error: The exception.
     """
-    said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    hint = "" if said.endswith("?") else "; correct this line."
+    reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    hint = "" if reason.endswith("?") else "; correct this line."
     if isinstance(error, AttributeError) and error.name and error.obj is not None:
         hint = f". {did_you_mean(error.name, [name for name in dir(error.obj) if not name.startswith('_')])}"
-    return Fault(f"{function} raised {said}{hint}", _mark_of(error, component.text, component.shown), address)
+    return Fault(f"{function} raised {reason}{hint}", _mark_of(error, component.text, component.shown), address)
 
 
 def _mark_of(error: Exception, text: str, file: str) -> Mark:

@@ -120,7 +120,7 @@ class Primitive:
         return inspect.cleandoc(self.cls.__doc__ or "")
 
     @property
-    def words(self) -> list[str]:
+    def keys(self) -> list[str]:
         """The keys that an entry of a spec may have for this component."""
-        said = c.Parameter | c.Input | c.Link | c.Attachment | c.Points | c.Series | c.Option | c.Part
-        return list(self.declared(said))  # type: ignore[arg-type]
+        kinds = c.Parameter | c.Input | c.Link | c.Attachment | c.Points | c.Series | c.Option | c.Part
+        return list(self.declared(kinds))  # type: ignore[arg-type]

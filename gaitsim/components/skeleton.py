@@ -108,10 +108,10 @@ def _from_contract(class_name: str, contract: Path, text: str) -> str:
     asked = read_contract(text, shown(contract))
     about = str(plain(parse(text, shown(contract))).get("about", "Write here what it computes."))
     lines = [
-        *(f'    {n} = Parameter("{u}", "{_words(n)}.", bounds=(0, 1e6))' for n, u in asked["parameters"].items()),
-        *(f'    {n} = Input("{u}", "{_words(n)}.")' for n, u in asked["inputs"].items()),
-        *(f'    {n} = Output("{u}", "{_words(n)}.")' for n, u in asked["outputs"].items()),
-        *(f'    {n} = Metric("{u}", "{_words(n)}.")' for n, u in asked["metrics"].items()),
+        *(f'    {n} = Parameter("{u}", "{_readable(n)}.", bounds=(0, 1e6))' for n, u in asked["parameters"].items()),
+        *(f'    {n} = Input("{u}", "{_readable(n)}.")' for n, u in asked["inputs"].items()),
+        *(f'    {n} = Output("{u}", "{_readable(n)}.")' for n, u in asked["outputs"].items()),
+        *(f'    {n} = Metric("{u}", "{_readable(n)}.")' for n, u in asked["metrics"].items()),
     ]
     functions = []
     if asked["outputs"] or not lines:
@@ -125,11 +125,11 @@ def _from_contract(class_name: str, contract: Path, text: str) -> str:
         '    signal = Input("1", "What comes in.")',
         '    result = Output("1", "What goes out.")',
     ]
-    words = sorted({"Component", *re.findall(r"= (\w+)\(", "\n".join(lines))})
+    imports = sorted({"Component", *re.findall(r"= (\w+)\(", "\n".join(lines))})
     doc = f'    """{about.rstrip(".")}; replace it by your equations, and cite their paper."""'
-    head = f"from gaitsim.component import {', '.join(words)}"
+    head = f"from gaitsim.component import {', '.join(imports)}"
     return "\n".join([head, "", "", f"class {class_name}(Component):", doc, "", *lines, *functions, ""])
 
 
-def _words(name: str) -> str:
+def _readable(name: str) -> str:
     return name.replace("_", " ").capitalize()

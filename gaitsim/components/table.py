@@ -107,9 +107,9 @@ def _split(text: str, shown: str) -> tuple[list[str], list[Row], str]:
             continue
         if not rows:
             separator = next((letter for letter in ";\t" if letter in line), ",")
-        words = [word.strip() for word in next(csv.reader([line], delimiter=separator), [])]
-        if any(words):
-            rows.append((Mark(shown, n), words))
+        cells = [word.strip() for word in next(csv.reader([line], delimiter=separator), [])]
+        if any(cells):
+            rows.append((Mark(shown, n), cells))
     return about, rows, separator
 
 
@@ -119,9 +119,9 @@ def _columns(row: Row) -> list[tuple[str, str]]:
     Raises:
         InvalidSpec: The row of names has a fault.
     """
-    place, words = row
+    place, cells = row
     faults, found = Faults(), []
-    for word in words:
+    for word in cells:
         head = _NAME.fullmatch(word)
         if head is None:
             faults.add(f'"{word}" is not a name with a unit; write such as knee_flexion [deg].', place)
@@ -171,15 +171,15 @@ def _check_cycle(over: Floats, marks: Sequence[Mark], name: str, faults: Faults)
 
 def _numbers(row: Row, count: int, decimal_comma: bool, faults: Faults) -> Iterable[float]:
     """The numbers of a row. Each word that is not a number is a fault."""
-    place, words = row
-    if len(words) != count:
-        faults.add(f"this row has {len(words)} numbers, and there are {count} names.", place)
-    for word in words:
+    place, cells = row
+    if len(cells) != count:
+        faults.add(f"this row has {len(cells)} numbers, and there are {count} names.", place)
+    for word in cells:
         try:
             value = float(word.replace(",", ".") if decimal_comma else word)
         except ValueError:
             value = math.nan
         if not math.isfinite(value):
-            said = f'"{word}" is not a number' if word else "a number is missing"
-            faults.add(f"{said}; write such as 12.5, or remove the row.", place)
+            rule = f'"{word}" is not a number' if word else "a number is missing"
+            faults.add(f"{rule}; write such as 12.5, or remove the row.", place)
         yield value

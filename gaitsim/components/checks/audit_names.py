@@ -27,9 +27,9 @@ def namespace(search: Search) -> dict[str, Any]:
         return called
 
     def rule(name: str) -> Callable[..., Any]:
-        said = f"math.{name}"
+        function = f"math.{name}"
         if name in _ALIKE:
-            return lambda *v: search.alike(f"{said} of {{0}} and {{1}}", *v, keeps=_ALIKE[name])
+            return lambda *v: search.alike(f"{function} of {{0}} and {{1}}", *v, keeps=_ALIKE[name])
         if name in _ROOTS:
             return lambda v: search.power(v, _ROOTS[name])
         if name == "pow":
@@ -38,7 +38,7 @@ def namespace(search: Search) -> dict[str, Any]:
             return lambda v: Number(search, search.dimensions.plain)
         if name in _FIRST:
             return lambda v, *sign: search.combine("*", v, 1)
-        return lambda *v: search.plain(said, *v)
+        return lambda *v: search.plain(function, *v)
 
     def turns(*values: Any) -> list[Number]:
         return [search.plain("range", *values) for _ in range(2)]

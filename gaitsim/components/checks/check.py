@@ -148,9 +148,9 @@ def _python(text: str, file: str) -> ast.Module:
     except (SyntaxError, ValueError) as error:
         line, column = getattr(error, "lineno", 0) or 0, getattr(error, "offset", 0) or 0
         text = lines[line - 1] if 0 < line <= len(lines) else ""
-        said = getattr(error, "msg", str(error))
+        reason = getattr(error, "msg", str(error))
         mark = Mark(file, line, max(column, 1) if line else 0, text)
-        raise InvalidComponent(Fault(f"this is not Python: {said}.", mark)) from None
+        raise InvalidComponent(Fault(f"this is not Python: {reason}.", mark)) from None
 
 
 def check_names(
@@ -230,8 +230,8 @@ class _Check:
             Whether both are correct.
         """
         if name not in SIGNATURES:
-            said = did_you_mean(name, SIGNATURES)
-            self.add(f"{name} is not a function of a component. {said}", function)
+            hint = did_you_mean(name, SIGNATURES)
+            self.add(f"{name} is not a function of a component. {hint}", function)
             return False
         if [ast.unparse(d) for d in function.decorator_list] != ["staticmethod"]:
             self.add(f"{name} needs @staticmethod above it, and nothing else.", function)
@@ -257,10 +257,10 @@ class _Check:
                 if letter not in letters or self.undeclared(letter, name, node):
                     continue
                 if id(node) in written and name not in _WRITERS.get(letter, ()):
-                    said = _READ_ONLY.get(letter) or (
+                    rule = _READ_ONLY.get(letter) or (
                         f"{_SAID[_LETTERS[letter]].split()[1]}s are set in {_listed(_WRITERS[letter])} only."
                     )
-                    self.add(f"{letter}.{node.attr} is assigned in {name}; {said}", node)
+                    self.add(f"{letter}.{node.attr} is assigned in {name}; {rule}", node)
 
     def whole(self, function: ast.FunctionDef) -> Iterator[ast.expr]:
         """The places where p, u, x, y or m may stand as a whole: before a dot, and as an argument of a helper."""
@@ -279,9 +279,9 @@ class _Check:
             self.add(f"{text} is not declared. {hint}", node)
         elif not isinstance(one, kinds):
             home = next((at for at, kind in _LETTERS.items() if isinstance(one, kind)), "")
-            said = _SAID.get(type(one), f"declared as {type(one).__name__}")
+            declaration = _SAID.get(type(one), f"declared as {type(one).__name__}")
             hint = f"; write {home}.{node.attr}." if home else "."
-            self.add(f"{text} is not {_SAID[_LETTERS[letter]]}: {node.attr} is {said}{hint}", node)
+            self.add(f"{text} is not {_SAID[_LETTERS[letter]]}: {node.attr} is {declaration}{hint}", node)
         elif isinstance(one, Points | Option) and function != "build":
             self.add(f"{text} is {_SAID[type(one)]}; it is known in build only.", node)
         else:
@@ -342,9 +342,9 @@ class _Check:
                 self.add(rule, self.places.get(missing))
 
 
-def _listed(words: Sequence[str]) -> str:
+def _listed(names: Sequence[str]) -> str:
     """Words as a list in a sentence: start, update and reset."""
-    return " and ".join(filter(None, (", ".join(words[:-1]), words[-1])))
+    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
 
 
 def _hint(word: str, names: list[str], prefix: str) -> str:

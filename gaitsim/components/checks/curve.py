@@ -24,17 +24,17 @@ def curve_faults(
         hint = did_you_mean(curve.of, outputs | set(functions))
         yield f"{name}: of names {curve.of}, which is neither an output nor a function of this file. {hint}"
         return
-    said = [curve.over, *curve.at, *([curve.each[0]] if curve.each else [])]
+    named = [curve.over, *curve.at, *([curve.each[0]] if curve.each else [])]
     if curve.of in outputs:
         names = {n for n, one in known.items() if isinstance(one, _READ)}
         inputs = {n for n, one in known.items() if isinstance(one, Input)}
-        wrong = [word for word in said if word not in names | {TIME}]
+        wrong = [word for word in named if word not in names | {TIME}]
         wrong += [word for word in curve.steps if word not in inputs]
     else:
         names = {argument.arg for argument in functions[curve.of].args.args}
-        wrong = [word for word in said if word not in names] + list(curve.steps)
+        wrong = [word for word in named if word not in names] + list(curve.steps)
         parameters = {n for n, one in known.items() if isinstance(one, Parameter)}
-        for missing in sorted(names - set(said) - parameters):
+        for missing in sorted(names - set(named) - parameters):
             yield f"{name}: {curve.of} also takes {missing}; give it a value in at."
     for word in wrong:
         yield f"{name}: {curve.of} does not depend on {word}. {did_you_mean(word, names)}"

@@ -125,8 +125,8 @@ def field_faults(name: str, one: Declaration) -> Iterator[str]:
         elif one.default is not None and not low <= one.default <= high:
             yield f"{name}: default {one.default} is outside its bounds ({low}, {high})."
     if isinstance(one, Option) and one.default not in (None, *one.choices):
-        said = did_you_mean(str(one.default), one.choices)
-        yield f"{name}: default {one.default} is not one of its choices. {said}"
+        hint = did_you_mean(str(one.default), one.choices)
+        yield f"{name}: default {one.default} is not one of its choices. {hint}"
 
 
 def like_faults(name: str, one: Metric | Input | Output, known: Mapping[str, Declaration]) -> Iterator[str]:

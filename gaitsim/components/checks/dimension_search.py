@@ -317,8 +317,8 @@ class Search:
             name = str(error).split("'")[1]
             self.faults.add(f"{name} is not set on every path that leads here.", mark)
         elif not raised:
-            said = f"{type(error).__name__}: {error}"
-            self.faults.add(f"the check of units cannot run this ({said}).", mark)
+            reason = f"{type(error).__name__}: {error}"
+            self.faults.add(f"the check of units cannot run this ({reason}).", mark)
 
 
 def _shape(value: Any) -> Any:
