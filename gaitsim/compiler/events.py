@@ -37,12 +37,12 @@ class Events:
             self._advance()
         return self._call(f, "advance", _STEP)
 
-    def _call(self, f: Writer, name: str, words: Mapping[str, str], *more: Any) -> Any:
-        given = [f.arguments[word] for word in words]
+    def _call(self, f: Writer, name: str, kinds: Mapping[str, str], *more: Any) -> Any:
+        given = [f.arguments[word] for word in kinds]
         return f.builder.call(self.of.names[name], [*given, *more], attrs=("noinline",))
 
-    def _function(self, name: str, words: Mapping[str, str]) -> Writer:
-        return self.of._function(name, FLAG, words, apart=False)
+    def _function(self, name: str, kinds: Mapping[str, str]) -> Writer:
+        return self.of._function(name, FLAG, kinds, apart=False)
 
     # --- one stage ---
 

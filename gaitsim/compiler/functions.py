@@ -54,7 +54,7 @@ class Functions:
         return self.names[name]
 
     def _chunks(
-        self, name: str, calls: Sequence[Any], words: Mapping[str, str], write: Callable[[Writer, Any], None]
+        self, name: str, calls: Sequence[Any], kinds: Mapping[str, str], write: Callable[[Writer, Any], None]
     ) -> Iterator[Any]:
         """Functions that make calls in order, a fixed number of calls each.
 
@@ -64,7 +64,7 @@ class Functions:
         for number, begin in enumerate(range(0, len(calls), _CHUNK)):
             chunk = f"{name}.{number}"
             if chunk not in self.names:
-                f = self._function(chunk, FLAG, words)
+                f = self._function(chunk, FLAG, kinds)
                 for call in calls[begin : begin + _CHUNK]:
                     write(f, call)
                 f.builder.ret(FLAG(1))

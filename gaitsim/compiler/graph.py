@@ -134,9 +134,9 @@ def _loop(model: Model, needs: dict[Port, set[Port]], waiting: dict[int, set[str
         path.append(port)
         port = next(n for n in sorted(needs[port]) if n[1] in waiting.get(n[0], ()))
     ring = [*path[path.index(port) :], port][::-1]
-    words = " -> ".join(f"{model.parts[part].address}.{output}" for part, output in ring)
+    loop = " -> ".join(f"{model.parts[part].address}.{output}" for part, output in ring)
     first = model.parts[ring[0][0]]
-    message = f"a loop without a state or a delay: {words}; give one of these connections a delay."
+    message = f"a loop without a state or a delay: {loop}; give one of these connections a delay."
     return Fault(message, first.mark, first.address)
 
 

@@ -134,8 +134,8 @@ class Instant(Functions):
         """Emit the start of all parts of one kernel, up to the first failure. Values of the spec are set last."""
         name = f"{piece.kernel}.begin"
         if name not in self.names:
-            words = {**dict.fromkeys("puxy", "pointer"), **{word: OUTPUTS[word] for word in _BEGIN}}
-            f = self._function(name, FLAG, words, apart=False)
+            kinds = {**dict.fromkeys("puxy", "pointer"), **{word: OUTPUTS[word] for word in _BEGIN}}
+            f = self._function(name, FLAG, kinds, apart=False)
             tables = [f.arguments[word] for word in "puxy"]
             if "start" in piece.stages:
                 f.return_if(f.builder.call(self._kernel(piece, "start"), [*tables, f.dt]), FLAG(0))

@@ -205,9 +205,9 @@ def _explained(error: Exception, component: Primitive) -> Fault:
     file, line = next(own, (component.shown, 0))
     lines = texts[file].splitlines()
     reasons = [row.strip() for row in text.splitlines() if row.strip()]
-    said = next((r for r in reasons if not r.startswith(("Failed in", "File", "During", "-", ">"))), "")
+    reason = next((r for r in reasons if not r.startswith(("Failed in", "File", "During", "-", ">"))), "")
     shown = lines[line - 1] if line else ""
     column = len(shown) - len(shown.lstrip()) + 1 if line else 0
-    why = f"numba says: {said.rstrip('.:')}"
+    why = f"numba says: {reason.rstrip('.:')}"
     message = f"this cannot become native code; write it with numbers, if, for and math only ({why})."
     return Fault(message, Mark(file, line, column, shown))

@@ -267,7 +267,7 @@ def _compiled(spec: Any, parts: Mapping[str, Part]) -> Any:
     except ValueError as error:
         text = " ".join(str(error).split())
         part = next((part for mark, part in parts.items() if text.endswith(f" {mark}")), None)
-        said = re.sub(r"[ ,]*Element name .*$", "", text.removeprefix("Error: "))
-        said = re.sub(r"^\w+ '.*?' \(id = \d+\): ", "", said)
-        rule = f"MuJoCo refuses this: {said}; correct its numbers, or what its component builds."
+        reason = re.sub(r"[ ,]*Element name .*$", "", text.removeprefix("Error: "))
+        reason = re.sub(r"^\w+ '.*?' \(id = \d+\): ", "", reason)
+        rule = f"MuJoCo refuses this: {reason}; correct its numbers, or what its component builds."
         raise InvalidSpec(Fault(rule, part.mark, part.address) if part else Fault(rule)) from error

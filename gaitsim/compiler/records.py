@@ -21,10 +21,10 @@ class Records:
     function: Callable[..., Writer]
     plan: Plan
 
-    def kept(self) -> None:
+    def copy(self) -> None:
         """Emit the copy of numbers of a table into a row, by pairs of target and origin."""
         arguments = {**dict.fromkeys(("row", "table", "pairs"), "pointer"), "count": "integer"}
-        f = self.function("kept", NOTHING, arguments)
+        f = self.function("copy_pairs", NOTHING, arguments)
         with f.times(f.count) as i:
             pair = f.place(f.pairs, f.builder.mul(i, INTEGER(2)), INTEGER)
             value = f.load(f.table, f.load(pair, 1, INTEGER))
@@ -44,4 +44,4 @@ class Records:
         constant = ir.GlobalVariable(self.text, kind, self.text.get_unique_name("pairs"))
         constant.linkage, constant.global_constant = "internal", True
         constant.initializer = ir.Constant(kind, [number for pair in pairs for number in pair])
-        f.builder.call(self.names["kept"], [row, table, constant, INTEGER(len(pairs))])
+        f.builder.call(self.names["copy_pairs"], [row, table, constant, INTEGER(len(pairs))])

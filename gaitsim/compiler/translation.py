@@ -29,7 +29,7 @@ class Translation(Instant):
         """The whole module. Kernels and functions of MuJoCo are only declared."""
         self._finite()
         self._bounded()
-        self.records.kept()
+        self.records.copy()
         self._start()
         self._run()
         return self.text
