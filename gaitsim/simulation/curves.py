@@ -132,8 +132,10 @@ def _graph(kind: Primitive, name: str, curve: Curve, settings: Mapping[str, floa
         lines.append(Line(label, y, x) if curve.inverse else Line(label, x, y))
     across, up = _axes(kind, curve)
     meanwhile = tuple(_stepped(curve, n) for n in curve.steps)
-    said = {n: f"{v:g} {kind.parameters[n].unit}".removesuffix(" 1") for n, v in assumed.items()}
-    return Graph(name, curve.doc, *((up, across) if curve.inverse else (across, up)), tuple(lines), meanwhile, said)
+    assumptions = {n: f"{v:g} {kind.parameters[n].unit}".removesuffix(" 1") for n, v in assumed.items()}
+    return Graph(
+        name, curve.doc, *((up, across) if curve.inverse else (across, up)), tuple(lines), meanwhile, assumptions
+    )
 
 
 def _family_label(kind: Primitive, curve: Curve, value: float) -> str:

@@ -23,8 +23,8 @@ def raised_in(part: Part, function: str, moment: str, error: Exception) -> str:
     """The message for an exception that a part's function raised at an instant, with its line."""
     lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == part.type.shown]
     place = f"{part.type.shown}:{lines[-1]}" if lines else function
-    said = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    return f"{part.address} ({part.type.reference}) raised in {function} at {moment} ({place}): {said}"
+    reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    return f"{part.address} ({part.type.reference}) raised in {function} at {moment} ({place}): {reason}"
 
 
 def of_values(program: Program, part: int, stage: str, step: int, u: Floats, x: Floats, y: Floats) -> str:
@@ -79,14 +79,14 @@ def of_events(program: Program, parts: list[int], step: int) -> str:
 
 def of_mechanics(program: Program, wrong: list[str], step: int) -> str:
     """The message for joint coordinates that are not finite."""
-    said = f" in {', '.join(wrong)}" if wrong else ""
-    return f"the mechanics diverged{said} at {_when(program, step)}; {_NEXT}"
+    where = f" in {', '.join(wrong)}" if wrong else ""
+    return f"the mechanics diverged{where} at {_when(program, step)}; {_NEXT}"
 
 
 def of_nothing_found(program: Program, step: int) -> str:
     """The message for a run that native code ended and for which plain Python finds no reason."""
-    said = f"native code raised or gave no finite number at {_when(program, step)}, and plain Python does not"
-    return f"{said}; run it with --mode normal"
+    reason = f"native code raised or gave no finite number at {_when(program, step)}, and plain Python does not"
+    return f"{reason}; run it with --mode normal"
 
 
 def of_runaway(program: Program, joint: str, speed: float, unit: str, step: int) -> str:

@@ -171,6 +171,6 @@ def _zero(function: Callable[[float], float], near: float) -> float:
             end, end_value = last, last_value
         else:
             # The other end stays. With its value made smaller, the next secant leads beyond the zero.
-            kept = 1 - value / last_value
-            end_value *= kept if kept > 0 else 0.5
+            share = 1 - value / last_value
+            end_value *= share if share > 0 else 0.5
     return value if abs(value) <= near else function(max(place, end))

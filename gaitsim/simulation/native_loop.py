@@ -42,10 +42,10 @@ class _Native:
 
     @staticmethod
     def of(code: Code) -> _Native:
-        def function(name: str, words: Mapping[str, str]) -> Callable[[Mapping[str, Any]], int]:
-            kinds = [_C_TYPES[kind] for kind in words.values()]
+        def function(name: str, arguments: Mapping[str, str]) -> Callable[[Mapping[str, Any]], int]:
+            kinds = [_C_TYPES[kind] for kind in arguments.values()]
             called = ctypes.CFUNCTYPE(ctypes.c_int64, *kinds)(code.address(name))
-            return lambda given: int(called(*(given[word] for word in words)))
+            return lambda given: int(called(*(given[word] for word in arguments)))
 
         return _Native(code, function("start", native.START), function("run", native.RUN))
 

@@ -74,16 +74,16 @@ class _Start:
 
     @property
     def fault(self) -> Fault:
-        said = [f"at the start this is {self._with_unit(self.value)}"]
+        clauses = [f"at the start this is {self._with_unit(self.value)}"]
         for word, ends in (("usual", self.declared.usual), ("possible", self.declared.possible)):
             passed = self.beyond(ends)
             if passed:
                 end, side = passed
                 origin = f" ({end})" if isinstance(end, str) else ""
-                said.append(f"{word} is {self._with_unit(self._si(end))}{origin} at {side}")
+                clauses.append(f"{word} is {self._with_unit(self._si(end))}{origin} at {side}")
         initial = self.model.initial.get(self.address)
         mark = self.part.mark if initial is None else self.model.numbers[initial].mark
-        return Fault(f"{', '.join(said)}; change initial:, or the numbers of this part.", mark, self.address)
+        return Fault(f"{', '.join(clauses)}; change initial:, or the numbers of this part.", mark, self.address)
 
     def _si(self, end: End) -> float:
         return end_in_si(end, self.declared.unit, units_of(self.part.type.parameters), self.numbers)
