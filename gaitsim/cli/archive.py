@@ -104,7 +104,7 @@ def record(what: What = None, library: Libraries = None, json: Json = False) -> 
 
     gaitsim archive record specs
     """
-    from gaitsim.components.find import shown
+    from gaitsim.components.find import display_path
     from gaitsim.study.archive import archived, recorded
 
     wrong, data = False, []
@@ -124,7 +124,7 @@ def record(what: What = None, library: Libraries = None, json: Json = False) -> 
         if made.error:
             console.say_error(made.error)
             continue
-        console.give(f"{shown(made.path)}: {made.what}")
+        console.give(f"{display_path(made.path)}: {made.what}")
         if made.differs:
             console.give_table(DIFFERENCE_COLUMNS, difference_rows(made.archived.name, made.differs))
     if json:

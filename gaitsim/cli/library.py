@@ -166,12 +166,12 @@ def new_component_file(
 
 def _asked(what: list[str], folders: list[Path] | None) -> Iterator[tuple[str, Library]]:
     """Each component that should be checked, with its library."""
-    from gaitsim.components.find import Library, shown
+    from gaitsim.components.find import Library, display_path
     from gaitsim.components.review import components_in
     from gaitsim.errors import Usage
 
     everything = open_library(None, folders or ())
-    for word in what or [shown(folder) for folder in everything.folders]:
+    for word in what or [display_path(folder) for folder in everything.folders]:
         path = Path(word)
         if word in everything.references() or not path.exists():
             yield word, everything

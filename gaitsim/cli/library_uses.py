@@ -46,14 +46,16 @@ def used_by(
 
     Example: gaitsim library used-by muscle/geyer2003
     """
-    from gaitsim.components.find import shown
+    from gaitsim.components.find import display_path
     from gaitsim.study.records import SHORT
     from gaitsim.study.uses import using_results, using_specs
 
     scope, talk = scope_of(where, results, library), console.ConsoleListener(json)
     version = scope.version(reference)[:SHORT]
     rows = [("spec", one.archived.name, one.version, "") for one in using_specs(reference, scope, talk)]
-    rows += [("result", shown(r.folder), r.version, r.created[:10]) for r in using_results(reference, scope, talk)]
+    rows += [
+        ("result", display_path(r.folder), r.version, r.created[:10]) for r in using_results(reference, scope, talk)
+    ]
     if json:
         users = [dict(zip(("what", "name", "version", "created"), row, strict=True)) for row in rows]
         console.give_json({"use": reference, "version": version, "users": users})

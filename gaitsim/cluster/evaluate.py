@@ -10,7 +10,7 @@ from pathlib import Path
 
 from gaitsim.cluster.cohort import Rows, bundle_rows
 from gaitsim.cluster.episodes import Episodes, bundle_episodes
-from gaitsim.components.find import shown
+from gaitsim.components.find import display_path
 from gaitsim.optimization.evaluation import Candidate, Evaluation, Verdict
 from gaitsim.results.bundle import COHORT, Bundle
 from gaitsim.simulation.run import Mode
@@ -27,7 +27,7 @@ class EpisodeRunner:
         """Evaluate a candidate. Reasons of failures name files relative to the bundle."""
         found = self.episodes.verdict(x)
         reason = found.reason
-        for folder in {str(self.folder), shown(self.folder)} - {"."}:
+        for folder in {str(self.folder), display_path(self.folder)} - {"."}:
             reason = reason.replace(f"{folder}/", "")
         return replace(found, reason=reason)
 

@@ -119,16 +119,16 @@ def _helper(kernels: Sequence[Kernel]) -> subprocess.Popen[bytes]:
 def _texts(file: Primitive | Shared) -> tuple[str, str, str, str]:
     """A file as text: reference or name, path, name in messages, and content."""
     name = file.reference if isinstance(file, Primitive) else file.name
-    return name, str(file.path), file.shown, file.text
+    return name, str(file.path), file.display_path, file.text
 
 
 def _compile(files: Sequence[tuple[Sequence[str], Sequence[Sequence[str]]]]) -> None:
     """Compile each component that is not in the cache yet."""
     from gaitsim.components.load import load_primitive
 
-    for (reference, path, shown, text), others in files:
+    for (reference, path, display_path, text), others in files:
         shared = [Shared(name, Path(place), seen, text) for name, place, seen, text in others]
-        kernel_of(load_primitive(reference, Path(path), shown, text, shared)).bitcode()
+        kernel_of(load_primitive(reference, Path(path), display_path, text, shared)).bitcode()
 
 
 if __name__ == "__main__":

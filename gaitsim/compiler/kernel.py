@@ -150,9 +150,9 @@ def _executed(kernel: Kernel) -> ModuleType:
     try:
         spaces: dict[str, dict[str, Any]] = {file.name: {"__name__": module.__name__} for file in component.shared}
         for file in component.shared:
-            exec(compile(file.text, file.shown, "exec"), spaces[file.name])
+            exec(compile(file.text, file.display_path, "exec"), spaces[file.name])
         module.__dict__["__builtins__"] = builtins_with(spaces)
-        exec(compile(component.text, component.shown, "exec"), module.__dict__)
+        exec(compile(component.text, component.display_path, "exec"), module.__dict__)
         _make_native([*spaces.values(), module.__dict__])
         exec(compile(_footer(component), kernel.name, "exec"), module.__dict__)
     finally:
@@ -200,9 +200,9 @@ def _explained(error: Exception, component: Primitive) -> Fault:
     """The first sentence of numba's message, and the line that it is about."""
     text = re.sub(r"\x1b\[[0-9;]*m", "", str(error))
     places = [(file, int(n)) for file, n in re.findall(r'File "(.*?)", line (\d+)', text)]
-    texts = {component.shown: component.text} | {file.shown: file.text for file in component.shared}
+    texts = {component.display_path: component.text} | {file.display_path: file.text for file in component.shared}
     own = (place for place in places if place[1] <= len(texts.get(place[0], "").splitlines()))
-    file, line = next(own, (component.shown, 0))
+    file, line = next(own, (component.display_path, 0))
     lines = texts[file].splitlines()
     reasons = [row.strip() for row in text.splitlines() if row.strip()]
     reason = next((r for r in reasons if not r.startswith(("Failed in", "File", "During", "-", ">"))), "")

@@ -62,20 +62,20 @@ class Composite:
 ComponentFile = Primitive | Composite
 
 
-def load_composite(reference: str, path: Path, shown: str, text: str) -> Composite:
+def load_composite(reference: str, path: Path, display_path: str, text: str) -> Composite:
     """Load a composite.
 
     Args:
         reference: Kind and name, such as "muscle_group/geyer2010".
         path: The file.
-        shown: The name of the file in messages.
+        display_path: The name of the file in messages.
         text: The text of the file.
 
     Raises:
         InvalidSpec: The file has faults; the error holds all of them.
     """
     faults = Faults()
-    document = respelled(parse(text, shown), _SECTIONS, "a composite has no section", faults)
+    document = respelled(parse(text, display_path), _SECTIONS, "a composite has no section", faults)
     sections = {name: _mapping(document, name, faults) for name in _SECTIONS if name != "about"}
     if not sections["parts"].entries:
         faults.add("a composite has no parts; write parts: and below it at least one.", document.mark)

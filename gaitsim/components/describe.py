@@ -6,7 +6,7 @@ from dataclasses import fields
 from typing import Any
 
 from gaitsim.components.composite import ComponentFile, Composite
-from gaitsim.components.find import shown
+from gaitsim.components.find import display_path
 from gaitsim.components.primitive import Primitive
 from gaitsim.text.document import plain
 
@@ -33,7 +33,7 @@ def described(component: ComponentFile) -> dict[str, Any]:
     head = {
         "use": component.reference,
         "kind": component.kind,
-        "file": shown(component.path),
+        "file": display_path(component.path),
         "digest": component.digest,
         "doc": component.doc,
     }

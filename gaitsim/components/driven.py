@@ -27,7 +27,7 @@ def obstacle(component: Primitive, name: str, common: Collection[str] = ()) -> s
     """
     if name in common or component.kind == "measure":
         return f"figures and metrics rely on the number {name} of a {component.kind}"
-    functions = class_functions(parse(component.text, component.shown))
+    functions = class_functions(parse(component.text, component.display_path))
     for word, function in functions.items():
         reads = list(_reads(function, name))
         if word in _LATE and reads:
@@ -55,19 +55,19 @@ def driven(component: Primitive, names: frozenset[str]) -> Primitive:
         names: Parameters without an obstacle.
     """
     text = _rewritten(component, names)
-    cls = component_class(execute(text, component.shown, ieee_math(), component.shared))
+    cls = component_class(execute(text, component.display_path, ieee_math(), component.shared))
     cls.declarations = {
         name: Input(one.unit, one.doc, possible=one.bounds) if name in names else one  # type: ignore[union-attr]
         for name, one in cls.declarations.items()
     }
-    others = [parse_shared(file.text, file.shown) for file in component.shared]
-    findings = findings_of(parse(text, component.shown), cls.declarations, others)
+    others = [parse_shared(file.text, file.display_path) for file in component.shared]
+    findings = findings_of(parse(text, component.display_path), cls.declarations, others)
     return replace(component, text=text, cls=cls, findings=findings)
 
 
 def _rewritten(component: Primitive, names: frozenset[str]) -> str:
     lines = [line.encode() for line in component.text.splitlines(keepends=True)]
-    for function in class_functions(parse(component.text, component.shown)).values():
+    for function in class_functions(parse(component.text, component.display_path)).values():
         for name in names:
             for node in _reads(function, name):
                 line, at = lines[node.lineno - 1], node.col_offset

@@ -137,7 +137,7 @@ class Library:
         """The library that a loaded component comes from: shipped, lab, project, result, or a folder."""
         path = self.find(reference).path
         word = serves(path.parents[1], shipped_folder())
-        return shown(path.parents[1]) if word == str(path.parents[1]) else word
+        return display_path(path.parents[1]) if word == str(path.parents[1]) else word
 
     def used(self) -> dict[str, ComponentFile]:
         """The components that were loaded, by reference."""
@@ -158,7 +158,7 @@ class Library:
             if reference not in paths:
                 raise InvalidSpec(Fault(f"there is no table {reference}. {did_you_mean(reference, paths)}"))
             path = paths[reference]
-            self._tables[reference] = load_table(path, shown(path), self._text(path, "table"))
+            self._tables[reference] = load_table(path, display_path(path), self._text(path, "table"))
         return self._tables[reference]
 
     def used_tables(self) -> dict[str, Table]:
@@ -188,7 +188,7 @@ class Library:
         for name in imported_names(text):
             files = [f / kind / f"{name}.py" for f in self.folders if self._has(f / kind / f"{name}.py")]
             if files:
-                found.append(Shared(name, files[0], shown(files[0]), as_lines(self._text(files[0], "file"))))
+                found.append(Shared(name, files[0], display_path(files[0]), as_lines(self._text(files[0], "file"))))
         return found
 
     def _load(self, reference: str) -> ComponentFile:
@@ -198,23 +198,23 @@ class Library:
         path = files[0]
         twins = [f for f in files if f.parent == path.parent]
         if len(twins) > 1:
-            both = " and ".join(shown(f) for f in twins)
+            both = " and ".join(display_path(f) for f in twins)
             raise InvalidSpec(Fault(f"{reference} is both {both}; remove one of them."))
         loaded = self._read(reference, path)
         contract = self.contract(loaded.kind)
-        faults = kind_faults(loaded, contract[1], shown(path), shown(contract[0])) if contract else []
+        faults = kind_faults(loaded, contract[1], display_path(path), display_path(contract[0])) if contract else []
         if faults:
             raise InvalidSpec(faults)
         for hidden in files[1:]:
             if as_lines(self._text(hidden, "component")) != loaded.text:
-                self.notices.append(f"{shown(path)} hides {shown(hidden)}")
+                self.notices.append(f"{display_path(path)} hides {display_path(hidden)}")
         return loaded
 
     def _read(self, reference: str, path: Path) -> ComponentFile:
         text = self._text(path, "component")
         if path.suffix == ".yaml":
-            return load_composite(reference, path, shown(path), text)
-        return load_primitive(reference, path, shown(path), text, self.shared(path.parent.name, text))
+            return load_composite(reference, path, display_path(path), text)
+        return load_primitive(reference, path, display_path(path), text, self.shared(path.parent.name, text))
 
     def _files(self, reference: str, suffixes: Sequence[str] = _SUFFIXES) -> list[Path]:
         kind, _, name = reference.partition("/")
@@ -233,8 +233,8 @@ class Library:
         real = path.resolve()
         if real.suffix != path.suffix:
             rule = f"this links to {real}, which is not a {path.suffix} file"
-            raise InvalidSpec(Fault(f"{rule}; name a {what} of your own.", Mark(shown(path))))
-        return text_of(path, shown(path), what)
+            raise InvalidSpec(Fault(f"{rule}; name a {what} of your own.", Mark(display_path(path))))
+        return text_of(path, display_path(path), what)
 
     def _matching(self, folder: Path, kind: str, suffix: str) -> list[Path]:
         """The files with a suffix, of one kind or of all kinds (*)."""
@@ -264,7 +264,7 @@ class Library:
         return f"there is no component {reference}. {hint}"
 
 
-def shown(path: Path) -> str:
+def display_path(path: Path) -> str:
     """A path as messages show it: relative if that is shorter."""
     try:
         return str(path.absolute().relative_to(Path.cwd()))

@@ -33,13 +33,15 @@ def as_lines(text: str) -> str:
     return io.StringIO(text, newline=None).read()
 
 
-def load_primitive(reference: str, path: Path, shown: str, text: str, shared: Sequence[Shared] = ()) -> Primitive:
+def load_primitive(
+    reference: str, path: Path, display_path: str, text: str, shared: Sequence[Shared] = ()
+) -> Primitive:
     """Load the component that a text holds.
 
     Args:
         reference: Kind and name, such as "muscle/geyer2003".
         path: Where the file lies.
-        shown: How errors name the file.
+        display_path: How errors name the file.
         text: The content of the file.
         shared: The files of the kind that the text imports from.
 
@@ -50,32 +52,32 @@ def load_primitive(reference: str, path: Path, shown: str, text: str, shared: Se
     everything = whole(text, shared)
     findings = sound_findings(everything)
     if findings is None:
-        tree = parse(text, shown)
-        others = _sound_trees(text, tree, shown, shared)
-        cls = component_class(execute(text, shown, ieee_math(), shared))
-        if faults := _faults(text, tree, cls, shown, shared, others):
+        tree = parse(text, display_path)
+        others = _sound_trees(text, tree, display_path, shared)
+        cls = component_class(execute(text, display_path, ieee_math(), shared))
+        if faults := _faults(text, tree, cls, display_path, shared, others):
             raise InvalidComponent(faults)
         findings = findings_of(tree, cls.declarations, others)
         remember(everything, findings)
     else:
-        cls = component_class(execute(text, shown, ieee_math(), shared))
+        cls = component_class(execute(text, display_path, ieee_math(), shared))
     functions = frozenset(name for name in FUNCTIONS if name in vars(cls))
     digest = digest_of(everything)
-    return Primitive(reference, path, shown, text, digest, cls, findings, functions, tuple(shared))
+    return Primitive(reference, path, display_path, text, digest, cls, findings, functions, tuple(shared))
 
 
-def _sound_trees(text: str, tree: ast.Module, shown: str, shared: Sequence[Shared]) -> list[ast.Module]:
+def _sound_trees(text: str, tree: ast.Module, display_path: str, shared: Sequence[Shared]) -> list[ast.Module]:
     """The syntax trees of the shared files. All imports of the component must be defined in them.
 
     Raises:
         InvalidComponent: A component file breaks the contract.
     """
-    others = [parse_shared(file.text, file.shown) for file in shared]
+    others = [parse_shared(file.text, file.display_path) for file in shared]
     lines = text.splitlines()
     wrong = import_faults(tree, shared, others)
-    faults = [Fault(message, place(shown, lines, node.lineno, node.col_offset)) for message, node in wrong]
+    faults = [Fault(message, place(display_path, lines, node.lineno, node.col_offset)) for message, node in wrong]
     for file, other in zip(shared, others, strict=True):
-        faults += check_names(other, {}, file.shown, file.text.splitlines())
+        faults += check_names(other, {}, file.display_path, file.text.splitlines())
     if faults:
         raise InvalidComponent(faults)
     return others
@@ -85,7 +87,7 @@ def _faults(
     text: str,
     tree: ast.Module,
     cls: type[Component],
-    shown: str,
+    display_path: str,
     shared: Sequence[Shared],
     others: Sequence[ast.Module],
 ) -> Sequence[Fault]:
@@ -94,9 +96,9 @@ def _faults(
 
     lines = text.splitlines()
     return (
-        check_names(tree, cls.declarations, shown, lines, others)
-        or _part_faults(cls, declaration_marks(tree, shown, lines))
-        or audit(text, shown, shared).faults
+        check_names(tree, cls.declarations, display_path, lines, others)
+        or _part_faults(cls, declaration_marks(tree, display_path, lines))
+        or audit(text, display_path, shared).faults
     )
 
 
@@ -112,7 +114,7 @@ def execute(text: str, file: str, mathematics: Any, shared: Sequence[Shared] = (
     Returns:
         The namespace of the component file.
     """
-    spaces = {other.name: execute(other.text, other.shown, mathematics) for other in shared}
+    spaces = {other.name: execute(other.text, other.display_path, mathematics) for other in shared}
     namespace: dict[str, Any] = {"__name__": "component", "__builtins__": builtins_with(spaces)}
     try:
         exec(compile(text, file, "exec"), namespace)
@@ -156,7 +158,7 @@ def raised(component: Primitive, function: str, address: str, error: Exception) 
     hint = "" if reason.endswith("?") else "; correct this line."
     if isinstance(error, AttributeError) and error.name and error.obj is not None:
         hint = f". {did_you_mean(error.name, [name for name in dir(error.obj) if not name.startswith('_')])}"
-    return Fault(f"{function} raised {reason}{hint}", _mark_of(error, component.text, component.shown), address)
+    return Fault(f"{function} raised {reason}{hint}", _mark_of(error, component.text, component.display_path), address)
 
 
 def _mark_of(error: Exception, text: str, file: str) -> Mark:

@@ -28,7 +28,7 @@ class Primitive:
 
     reference: str
     path: Path
-    shown: str
+    display_path: str
     text: str
     digest: str
     cls: type[c.Component]

@@ -10,7 +10,7 @@ from gaitsim.components.bibliography import FILE, keys_of, read_bibliography, un
 from gaitsim.components.checks.audit import audit
 from gaitsim.components.checks.check import declaration_marks, parse
 from gaitsim.components.composite import Composite
-from gaitsim.components.find import Library, is_component, shown
+from gaitsim.components.find import Library, display_path, is_component
 from gaitsim.components.ieee import ieee_math
 from gaitsim.components.load import component_class, execute
 from gaitsim.components.primitive import Primitive
@@ -44,7 +44,7 @@ def _of_broken(reference: str, library: Library) -> Iterator[Fault]:
     path = library.path(reference)
     if path is None or path.suffix != ".py":
         return
-    file = shown(path)
+    file = display_path(path)
     try:
         text = path.read_text(encoding="utf-8")
         tree = parse(text, file)
@@ -57,10 +57,10 @@ def _of_broken(reference: str, library: Library) -> Iterator[Fault]:
 
 def _of_primitive(found: Primitive, keys: set[str], library: Library) -> Iterator[Fault]:
     lines = found.text.splitlines()
-    marks = declaration_marks(parse(found.text, found.shown), found.shown, lines)
+    marks = declaration_marks(parse(found.text, found.display_path), found.display_path, lines)
     yield from _policy(found.cls.declarations, found.doc, marks, keys)
-    for line in audit(found.text, found.shown, found.shared).unreached:
-        place = Mark(found.shown, line, 1, lines[line - 1])
+    for line in audit(found.text, found.display_path, found.shared).unreached:
+        place = Mark(found.display_path, line, 1, lines[line - 1])
         yield Fault("no path leads here, so its units were not checked; remove it, or a condition before it.", place)
     if library.contract(found.kind) is None:
         move = f"write {found.path.parent.name}/kind.yaml with about:, or choose a kind that exists"
@@ -95,7 +95,7 @@ def _of_parameter(
 
 
 def _of_composite(found: Composite, keys: set[str]) -> Iterator[Fault]:
-    file = shown(found.path)
+    file = display_path(found.path)
     if not found.doc.strip():
         yield Fault("the component has no doc; write about: and what it is.", Mark(file, 1, 1))
     for name, one in found.parameters.items():

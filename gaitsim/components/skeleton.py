@@ -8,7 +8,7 @@ from pathlib import Path
 
 from gaitsim.components.composite import Composite
 from gaitsim.components.contract import read_contract
-from gaitsim.components.find import KIND, SKELETON, Library, shown
+from gaitsim.components.find import KIND, SKELETON, Library, display_path
 from gaitsim.errors import Usage, did_you_mean, with_article
 from gaitsim.text.document import parse, plain
 
@@ -100,13 +100,13 @@ def _check_name(kind: str, name: str, library: Library) -> None:
         raise Usage(f"{name} is not a name for a component; write small letters, digits and _, such as my_{kind}.")
     known = library.path(f"{kind}/{name}")
     if known is not None:
-        raise Usage(f"{kind}/{name} exists already ({shown(known)}); choose another name.")
+        raise Usage(f"{kind}/{name} exists already ({display_path(known)}); choose another name.")
 
 
 def _from_contract(class_name: str, contract: Path, text: str) -> str:
     """A component that declares what its kind requires and computes nothing yet."""
-    asked = read_contract(text, shown(contract))
-    about = str(plain(parse(text, shown(contract))).get("about", "Write here what it computes."))
+    asked = read_contract(text, display_path(contract))
+    about = str(plain(parse(text, display_path(contract))).get("about", "Write here what it computes."))
     lines = [
         *(f'    {n} = Parameter("{u}", "{_readable(n)}.", bounds=(0, 1e6))' for n, u in asked["parameters"].items()),
         *(f'    {n} = Input("{u}", "{_readable(n)}.")' for n, u in asked["inputs"].items()),

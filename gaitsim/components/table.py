@@ -52,22 +52,22 @@ class Table:
         return resampled(self.over, self.columns[column], count)
 
 
-def load_table(path: Path, shown: str, text: str) -> Table:
+def load_table(path: Path, display_path: str, text: str) -> Table:
     """Read a table.
 
     Args:
         path: The file.
-        shown: The name of the file in messages.
+        display_path: The name of the file in messages.
         text: The text of the file.
 
     Raises:
         InvalidSpec: Rows have faults; the error holds all of them.
     """
     text = as_lines(text)
-    about, rows, separator = _split(text.removeprefix("\ufeff"), shown)
+    about, rows, separator = _split(text.removeprefix("\ufeff"), display_path)
     if len(rows) < 3:
         rule = "a table has a row of names with units, such as cycle [%],knee_flexion [deg], and two rows of numbers"
-        raise InvalidSpec(Fault(f"{rule} or more.", Mark(shown)))
+        raise InvalidSpec(Fault(f"{rule} or more.", Mark(display_path)))
     heads, faults = _columns(rows[0]), Faults()
     numbers = [list(_numbers(row, len(heads), separator != ",", faults)) for row in rows[1:]]
     faults.raise_if_any()
@@ -98,7 +98,7 @@ def _period(over: Floats) -> float | None:
     return None if over[0] <= 0 and over[-1] >= 1 else 1.0
 
 
-def _split(text: str, shown: str) -> tuple[list[str], list[Row], str]:
+def _split(text: str, display_path: str) -> tuple[list[str], list[Row], str]:
     """The description of a table, its rows as words, and the separator. Empty rows are skipped."""
     about, rows, separator = list[str](), list[Row](), ","
     for n, line in enumerate(text.splitlines(), start=1):
@@ -109,7 +109,7 @@ def _split(text: str, shown: str) -> tuple[list[str], list[Row], str]:
             separator = next((letter for letter in ";\t" if letter in line), ",")
         cells = [word.strip() for word in next(csv.reader([line], delimiter=separator), [])]
         if any(cells):
-            rows.append((Mark(shown, n), cells))
+            rows.append((Mark(display_path, n), cells))
     return about, rows, separator
 
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from gaitsim.errors import Fault, GaitsimError, Mark
 from gaitsim.model import Model
-from gaitsim.components.find import Library, shown
+from gaitsim.components.find import Library, display_path
 from gaitsim.components.load import as_lines
 from gaitsim.text.document import MappingNode, dump, parse, plain, text_of
 from gaitsim.components.primitive import Primitive
@@ -151,7 +151,7 @@ def read_bundle(folder: Path, name: str) -> Bundle:
 def _text(path: Path) -> str:
     r"""The text of a file in a result, with "\n" at the end of lines."""
     try:
-        return as_lines(text_of(path, shown(path), "copy"))
+        return as_lines(text_of(path, display_path(path), "copy"))
     except GaitsimError as error:
         rules = [re.split("[;.] ", fault.message)[0].rstrip(".") for fault in error.faults]
-        raise BadResult([Fault(f"{rule}; restore it from a copy.", Mark(shown(path))) for rule in rules]) from error
+        raise BadResult([Fault(f"{rule}; restore it from a copy.", Mark(display_path(path))) for rule in rules]) from error

@@ -126,5 +126,5 @@ def _place(number: Number, part: Part | None) -> Mark | None:
     if number.mark is not None or part is None:
         return number.mark
     component = part.type
-    marks = declaration_marks(parse(component.text, component.shown), component.shown, component.text.splitlines())
+    marks = declaration_marks(parse(component.text, component.display_path), component.display_path, component.text.splitlines())
     return marks.get(number.address.rpartition(".")[2])

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from gaitsim.components.find import shipped_folder, shown
+from gaitsim.components.find import shipped_folder, display_path
 from gaitsim.components.load import as_lines
 from gaitsim.components.places import serves
 from gaitsim.results.bundle import COMPONENTS, Bundle
@@ -58,4 +58,4 @@ def copies(bundle: Bundle, folders: Sequence[Path]) -> list[Copy]:
 
 def _word(folder: Path) -> str:
     word = serves(folder, shipped_folder())
-    return shown(folder) if word == str(folder) else word
+    return display_path(folder) if word == str(folder) else word

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 
 from gaitsim.errors import GaitsimError
 from gaitsim.folders import state_folder
-from gaitsim.components.find import shipped_folder, shown
+from gaitsim.components.find import shipped_folder, display_path
 from gaitsim.components.load import as_lines, digest_of
 from gaitsim.results.bundle import Bundle
 
@@ -47,7 +47,7 @@ def check_trust(bundle: Bundle, trusted: bool) -> None:
         return
     strange = unknown_components(bundle)
     if strange:
-        names = ", ".join(shown(bundle.folder / path) for path in strange)
+        names = ", ".join(display_path(bundle.folder / path) for path in strange)
         rule = "running it would run code that this machine does not know"
         raise Untrusted(f"{bundle.folder}: {rule}: {names}; read these files, then use --trust.")
 

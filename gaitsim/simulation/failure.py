@@ -21,8 +21,8 @@ def of_exception(program: Program, part: int, stage: str, step: int, error: Exce
 
 def raised_in(part: Part, function: str, moment: str, error: Exception) -> str:
     """The message for an exception that a part's function raised at an instant, with its line."""
-    lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == part.type.shown]
-    place = f"{part.type.shown}:{lines[-1]}" if lines else function
+    lines = [f.lineno for f in traceback.extract_tb(error.__traceback__) if f.filename == part.type.display_path]
+    place = f"{part.type.display_path}:{lines[-1]}" if lines else function
     reason = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
     return f"{part.address} ({part.type.reference}) raised in {function} at {moment} ({place}): {reason}"
 

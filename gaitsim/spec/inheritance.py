@@ -44,32 +44,34 @@ def _swapped(base: MappingNode, over: MappingNode) -> frozenset[str]:
     return base.swapped | over.swapped | frozenset(base.entries)
 
 
-def with_parents(path: Path, shown: str, read: Callable[[Path, str], MappingNode] = document.read) -> MappingNode:
+def with_parents(
+    path: Path, display_path: str, read: Callable[[Path, str], MappingNode] = document.read
+) -> MappingNode:
     """Read a document and merge it with the parents that `extends:` names.
 
     Args:
         path: The file.
-        shown: Its name in messages.
+        display_path: Its name in messages.
         read: Reads a document from a file, given its name in messages.
 
     Raises:
         InvalidSpec: A file cannot be read, or specs extend each other in a ring.
     """
-    documents = [read(path, shown)]
-    names, seen = [shown], [os.path.realpath(path)]
+    documents = [read(path, display_path)]
+    names, seen = [display_path], [os.path.realpath(path)]
     while "extends" in documents[-1].entries:
         parent = documents[-1].entries["extends"]
         if not isinstance(parent, ScalarNode) or not isinstance(parent.value, str):
             rule = "extends names one parent"
             raise InvalidSpec(Fault(f"{rule}; write a file, such as extends: walk.yaml.", parent.mark, "extends"))
-        path, shown = path.parent / parent.value, str(Path(shown).parent / parent.value)
-        names.append(shown)
+        path, display_path = path.parent / parent.value, str(Path(display_path).parent / parent.value)
+        names.append(display_path)
         if os.path.realpath(path) in seen:
             ring = " -> ".join(names[seen.index(os.path.realpath(path)) :])
             rule = f"these extend each other in a ring: {ring}"
             raise InvalidSpec(Fault(f"{rule}; remove one extends.", parent.mark, "extends"))
         seen.append(os.path.realpath(path))
-        documents.append(_parent(path, shown, parent.mark, read))
+        documents.append(_parent(path, display_path, parent.mark, read))
     # A changed spec need not reproduce the values of its parent.
     documents[1:] = [without(each, "reproduces") for each in documents[1:]]
     result, *children = [without(each, "extends") for each in reversed(documents)]
@@ -201,19 +203,19 @@ def _is_value(node: Node) -> bool:
     return isinstance(node, MappingNode) and bool(node.entries) and set(node.entries) <= VALUE_KEYS
 
 
-def _parent(path: Path, shown: str, mark: Mark, read: Callable[[Path, str], MappingNode]) -> MappingNode:
+def _parent(path: Path, display_path: str, mark: Mark, read: Callable[[Path, str], MappingNode]) -> MappingNode:
     """Read a parent. A fault of the file as a whole is reported at the place that names it."""
     try:
         # The writer of `extends:` chose the file, so messages quote nothing of a file that is not a spec.
-        if not _SPEC.search(document.text_of(path, shown)):
-            rule = f"{shown} is not a spec, as it has none of a spec's sections, such as parts:"
+        if not _SPEC.search(document.text_of(path, display_path)):
+            rule = f"{display_path} is not a spec, as it has none of a spec's sections, such as parts:"
             raise InvalidSpec(Fault(f"{rule}; name a spec.", mark, "extends"))
-        return read(path, shown)
+        return read(path, display_path)
     except InvalidSpec as error:
         raise InvalidSpec(
             fault
             if fault.mark and fault.mark.line
-            else Fault(f"{fault.mark or shown}: {fault.message}", mark, "extends")
+            else Fault(f"{fault.mark or display_path}: {fault.message}", mark, "extends")
             for fault in error.faults
         ) from error
 

@@ -11,7 +11,7 @@ from typing import Any
 
 from gaitsim.cluster.episodes import bundle_episodes
 from gaitsim.components.checks.shared import imported_names
-from gaitsim.components.find import Library, shown
+from gaitsim.components.find import Library, display_path
 from gaitsim.errors import GaitsimError
 from gaitsim.results.bundle import COMPONENTS, Bundle
 from gaitsim.results.pick import pick
@@ -65,7 +65,7 @@ def tested(reference: str, scope: Scope, trusted: bool, listener: Listener) -> I
     yield from _of_specs(reference, scope, listener)
     texts = _present(scope.library())
     for user in using_results(reference, scope, listener):
-        name = shown(user.folder)
+        name = display_path(user.folder)
         if user.version == version:
             yield Effect("result", name, user.version, "same")
             continue

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from gaitsim.components.find import Library, shipped_specs, shown
+from gaitsim.components.find import Library, display_path, shipped_specs
 from gaitsim.components.load import digest_of
 from gaitsim.errors import Fault, GaitsimError, Mark, SimulationFailed, Usage, did_you_mean
 from gaitsim.model import Model
@@ -296,7 +296,7 @@ def _row(spec: Archived, index: int, outcomes: Sequence[Outcome]) -> Row:
     first, settings = outcomes[0], spec.rows[index].settings
     if len(outcomes) > 1 and first.status == "failed":
         rule = f"this fails, and an archive contains only models that run: {first.reason}"
-        raise SimulationFailed(Fault(rule, Mark(shown(spec.path)), run_words(settings)))
+        raise SimulationFailed(Fault(rule, Mark(display_path(spec.path)), run_words(settings)))
     statuses = dict.fromkeys(outcome.status for outcome in outcomes)
     units = {STEPS: "1", SCORE: "1"} | spec.models[index].metrics
     numbers = [_numbers(outcome) for outcome in outcomes]

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from gaitsim.components.bibliography import keys_of
-from gaitsim.components.find import shown
+from gaitsim.components.find import display_path
 from gaitsim.errors import Faults, GaitsimError
 from gaitsim.model import KnownValue
 from gaitsim.results.tuned import tuned_path
@@ -75,7 +75,7 @@ def _entry(spec: Archived) -> Entry:
     """
     path = spec.path
     about = " ".join(str(plain(read(path)).get("about", "")).split())
-    document = with_parents(path, shown(path))
+    document = with_parents(path, display_path(path))
     text = dump(plain(document))
     cited = Counter(key for source in _SOURCE.findall(text) for key in keys_of(source))
     above = list(parents(path))

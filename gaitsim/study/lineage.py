@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 from gaitsim.components.checks.shared import Shared, imported_names, whole
-from gaitsim.components.find import Library, shown
+from gaitsim.components.find import Library, display_path
 from gaitsim.components.load import as_lines, digest_of
 from gaitsim.errors import Usage
 from gaitsim.study.records import SHORT
@@ -71,8 +71,8 @@ def history(
                 found.setdefault(digest, (commit.date, commit.summary))
         found.setdefault(now[:SHORT], ("", _UNCOMMITTED))
     for result in results:
-        found.setdefault(result.version, (result.created, f"result {shown(result.folder)}"))
-        users.setdefault(result.version, []).append(shown(result.folder))
+        found.setdefault(result.version, (result.created, f"result {display_path(result.folder)}"))
+        users.setdefault(result.version, []).append(display_path(result.folder))
     if not found:
         raise Usage(library.unknown(reference))
     for spec in specs:

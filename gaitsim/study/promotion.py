@@ -17,7 +17,7 @@ from pathlib import Path
 from gaitsim.components.bibliography import FILE, keys_of, read_bibliography
 from gaitsim.components.checks.shared import imported_names
 from gaitsim.components.composite import ComponentFile
-from gaitsim.components.find import KIND, Library, library_folders, shipped_folder, shown
+from gaitsim.components.find import KIND, Library, display_path, library_folders, shipped_folder
 from gaitsim.components.places import lab_of, project_of
 from gaitsim.components.review import review
 from gaitsim.components.skeleton import test_of
@@ -98,7 +98,7 @@ def asked(
     if not any((folder / kind / f"{name}{suffix}").is_file() for suffix in (".py", ".yaml")):
         found = Library((folder,)) if folder.is_dir() else Library(())
         hint = f"Here are: {', '.join(found.references())}." if found.references() else "Name its project with --from."
-        raise Usage(f"{reference}: {shown(folder)} has no such component. {hint}")
+        raise Usage(f"{reference}: {display_path(folder)} has no such component. {hint}")
     lab = lab_of(folder)
     if target is None and lab is None:
         raise Usage("there is no lab here, whose library it could go to; name a library: --to FOLDER.")
@@ -151,7 +151,7 @@ def _reviewed(request: Request) -> ComponentFile:
     inside = [r for r, c in library.used().items() if c is not component and c.path.parents[1] == request.origin]
     if inside:
         rule = f"it has inner parts of the project: {', '.join(inside)}; promote these first."
-        raise InvalidComponent(Fault(rule, Mark(shown(component.path))))
+        raise InvalidComponent(Fault(rule, Mark(display_path(component.path))))
     return component
 
 
@@ -163,7 +163,7 @@ def _behind(target: Path) -> tuple[Path, ...]:
 def _physics_test(request: Request) -> str:
     """The text of the test, adapted to the library."""
     path, name = request.test, request.reference
-    place = Mark(shown(path))
+    place = Mark(display_path(path))
     form = "gaitsim library new writes the beginning of one"
     if not path.is_file():
         raise InvalidComponent(
@@ -174,7 +174,7 @@ def _physics_test(request: Request) -> str:
         tree = ast.parse(text)
     except SyntaxError as error:
         raise InvalidComponent(
-            Fault(f"this is no Python: {error.msg}.", Mark(shown(path), error.lineno or 0))
+            Fault(f"this is no Python: {error.msg}.", Mark(display_path(path), error.lineno or 0))
         ) from error
     if name not in text:
         raise InvalidComponent(Fault(f"this test does not name {name}; name the test of it: --test FILE.", place))
@@ -221,9 +221,9 @@ def _taken(request: Request, files: Mapping[Path, str]) -> bool:
         other = path.is_file() and path.name != FILE and path.read_text(encoding="utf-8") != text
         if other and not request.replace:
             rule = "this exists already and is overwritten only with --replace"
-            raise Usage(f"{shown(path)}: {rule}; choose another name, or add it.")
+            raise Usage(f"{display_path(path)}: {rule}; choose another name, or add it.")
     if known is not None and not request.replace:
-        rule = f"{request.reference} exists already ({shown(known)})"
+        rule = f"{request.reference} exists already ({display_path(known)})"
         raise Usage(f"{rule}; choose another name, or use --replace, which runs all its users first.")
     return known is not None
 
@@ -263,7 +263,7 @@ def _run_test(staged: Path, own: Path) -> None:
     if ran.returncode:
         output = "\n".join(f"{ran.stdout}\n{ran.stderr}".strip().splitlines()[-_LINES:])
         rule = "this test does not pass beside the library, so nothing was promoted; correct it, or the component"
-        raise InvalidComponent(Fault(f"{rule}:\n{output}", Mark(shown(own))))
+        raise InvalidComponent(Fault(f"{rule}:\n{output}", Mark(display_path(own))))
 
 
 def _users(request: Request, stage: Path, listener: Listener) -> tuple[Effect, ...]:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, ValidationError
 
-from gaitsim.components.find import shown
+from gaitsim.components.find import display_path
 from gaitsim.components.load import digest_of
 from gaitsim.errors import Fault, GaitsimError, Mark, command
 from gaitsim.text.document import dump, parse, plain, text_of
@@ -136,19 +136,19 @@ def read_record(spec: Path) -> Recorded:
     """
     path, again = record_path(spec), command("archive", "record", spec.stem if spec.is_absolute() else spec)
     if not path.is_file():
-        raise BadRecord(Fault(f"there is no record of this model; write it with: {again}", Mark(shown(path))))
-    text = text_of(path, shown(path), "record")
+        raise BadRecord(Fault(f"there is no record of this model; write it with: {again}", Mark(display_path(path))))
+    text = text_of(path, display_path(path), "record")
     found = _DIGEST.search(text)
     body = text[: found.start()] if found else text
     if found is None or digest_of(body)[:SHORT] != found[1]:
         rule = "this record was damaged or edited; restore it from a copy, or write it again with"
-        raise BadRecord(Fault(f"{rule}: {again}", Mark(shown(path))))
+        raise BadRecord(Fault(f"{rule}: {again}", Mark(display_path(path))))
     try:
-        return Recorded.model_validate(plain(parse(body, shown(path))))
+        return Recorded.model_validate(plain(parse(body, display_path(path))))
     except ValidationError as error:
         place = ".".join(map(str, error.errors()[0]["loc"]))
         rule = f"this record is of another format ({place}: {error.errors()[0]['msg']}); write it again with"
-        raise BadRecord(Fault(f"{rule}: {again}", Mark(shown(path)))) from error
+        raise BadRecord(Fault(f"{rule}: {again}", Mark(display_path(path)))) from error
 
 
 def run_words(settings: Mapping[str, str]) -> str:

@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from gaitsim.components.find import Library, shipped_specs, shown
+from gaitsim.components.find import Library, display_path, shipped_specs
 from gaitsim.components.places import lab_of
 from gaitsim.errors import GaitsimError, Usage
 from gaitsim.results.bundle import Bundle
@@ -87,7 +87,7 @@ class Scope:
         folders = [here, *(sorted((lab / "projects").glob("*/")) if lab else [])]
         own = [path for folder in folders for path in sorted(folder.glob("*.yaml")) if _is_spec(path)]
         known = {path.resolve() for path in shipped_specs().values()}
-        mine = {path.resolve(): Archived(shown(path), path, self.folders) for path in own}
+        mine = {path.resolve(): Archived(display_path(path), path, self.folders) for path in own}
         return [*archived((), self.folders), *(each for path, each in mine.items() if path not in known)]
 
 

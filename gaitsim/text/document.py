@@ -64,17 +64,17 @@ class MappingNode:
 Node = Union[ScalarNode, SequenceNode, MappingNode]  # noqa: UP007 (the names below it must exist at run time)
 
 
-def read(path: Path, shown: str | None = None) -> MappingNode:
+def read(path: Path, display_path: str | None = None) -> MappingNode:
     """Read a document from a file.
 
     Args:
         path: The file.
-        shown: The name of the file in messages; the path by default.
+        display_path: The name of the file in messages; the path by default.
 
     Raises:
         InvalidSpec: The file cannot be read, or its text is not a document.
     """
-    name = str(path) if shown is None else shown
+    name = str(path) if display_path is None else display_path
     return parse(text_of(path, name), name)
 
 

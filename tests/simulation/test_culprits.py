@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.components.find import Library, shipped_folder, shown
+from gaitsim.components.find import Library, display_path, shipped_folder
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import resolve
@@ -134,7 +134,7 @@ CASES = {
 def test_the_culprit_and_its_moment_are_told_alike_in_both_modes(case: str, tmp_path: Path) -> None:
     said, reason = CASES[case]
     rapid, normal = (run(tmp_path, mode, **said) for mode in ("rapid", "normal"))
-    assert rapid.reason == reason.format(file=shown(tmp_path / "components" / "controller" / "trial.py"))
+    assert rapid.reason == reason.format(file=display_path(tmp_path / "components" / "controller" / "trial.py"))
     assert (rapid.status, rapid.reason, rapid.steps) == (normal.status, normal.reason, normal.steps)
 
 

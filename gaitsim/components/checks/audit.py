@@ -43,17 +43,17 @@ def audit(text: str, file: str, shared: Sequence[Shared] = ()) -> Audit:
     """
     try:
         tree = parse(text, file)
-        others = [parse_shared(other.text, other.shown) for other in shared]
+        others = [parse_shared(other.text, other.display_path) for other in shared]
     except InvalidComponent as error:
         return Audit(error.faults, ())
     statements = mark_statements(tree, others)
-    search = Search(file, {file: text.splitlines()} | {one.shown: one.text.splitlines() for one in shared})
+    search = Search(file, {file: text.splitlines()} | {one.display_path: one.text.splitlines() for one in shared})
     space = namespace(search)
     try:
         spaces = {}
         for one, other in zip(shared, others, strict=True):
             spaces[one.name] = namespace(search)
-            exec(compile(other, one.shown, "exec"), spaces[one.name])
+            exec(compile(other, one.display_path, "exec"), spaces[one.name])
         space["__builtins__"] = builtins_with(spaces, space["__builtins__"])
         exec(compile(tree, file, "exec"), space)
     except Exception as error:

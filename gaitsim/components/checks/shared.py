@@ -25,12 +25,12 @@ class Shared:
     """A file that components of a kind import from.
 
     Attributes:
-        shown: The name of the file in messages.
+        display_path: The name of the file in messages.
     """
 
     name: str
     path: Path
-    shown: str
+    display_path: str
     text: str
 
 
