@@ -50,11 +50,13 @@ class Row:
     search_s: float
 
 
-def tuned(muscle: str, words: Sequence[str]) -> Row:
+def tuned(muscle: str, arguments: Sequence[str]) -> Row:
     """Tune the hopper with one muscle, in a temporary folder, and look at the best candidate."""
     with tempfile.TemporaryDirectory() as folder:
         command = [sys.executable, "-m", "gaitsim.cli.main", "optimize", str(SPEC), "--set", f"extensor.use={muscle}"]
-        ran = subprocess.run([*command, *words, "--json"], cwd=folder, stdout=subprocess.PIPE, text=True, check=True)
+        ran = subprocess.run(
+            [*command, *arguments, "--json"], cwd=folder, stdout=subprocess.PIPE, text=True, check=True
+        )
         search = json.loads(ran.stdout)
         simulator = Simulator(Opening(Path(folder) / search["result"]).open().model())
     before = Simulator(Opening(SPEC, (f"extensor.use={muscle}",), tuned=False).open().model()).run()
@@ -105,8 +107,8 @@ def main() -> None:
     asked.add_argument("--out", type=Path, help="also write the table to this CSV file")
     options = asked.parse_args()
     given = {name: getattr(options, name) for name in ("generations", "population", "workers")}
-    words = [word for name, value in given.items() if value is not None for word in (f"--{name}", str(value))]
-    rows = [tuned(muscle, words) for muscle in Library((shipped_folder(),)).references("muscle")]
+    arguments = [word for name, value in given.items() if value is not None for word in (f"--{name}", str(value))]
+    rows = [tuned(muscle, arguments) for muscle in Library((shipped_folder(),)).references("muscle")]
     show(rows)
     if options.out:
         with options.out.open("w", newline="", encoding="utf-8") as file:

@@ -24,12 +24,14 @@ def impaired() -> list[Path]:
     return sorted(path for path in SPECS.glob("*.yaml") if extends in path.read_text(encoding="utf-8"))
 
 
-def tune(spec: Path, words: argparse.Namespace) -> None:
+def tune(spec: Path, options: argparse.Namespace) -> None:
     """Search from the healthy walker, or from what an earlier search found, and keep the best values."""
-    command = [*GAITSIM, "optimize", str(spec), "--from", "tuned", "--adopt", "--results", words.results]
-    command += ["--generations", str(words.generations), "--seed", str(words.seed)]
-    command += ["--set", f"optimize.spread_factor={words.spread_factor}"]
-    subprocess.run([*command, *(["--workers", str(words.workers)] if words.workers is not None else [])], check=False)
+    command = [*GAITSIM, "optimize", str(spec), "--from", "tuned", "--adopt", "--results", options.results]
+    command += ["--generations", str(options.generations), "--seed", str(options.seed)]
+    command += ["--set", f"optimize.spread_factor={options.spread_factor}"]
+    subprocess.run(
+        [*command, *(["--workers", str(options.workers)] if options.workers is not None else [])], check=False
+    )
 
 
 def main() -> None:
@@ -43,11 +45,11 @@ def main() -> None:
     parser.add_argument("--results", default="results", help="folder of the searches")
     parser.add_argument("--folder", default="analysis/pathology", help="where figures and table go")
     parser.add_argument("--compare", action="store_true", help="no searches")
-    words = parser.parse_args()
-    for spec in () if words.compare else words.specs:
-        tune(spec, words)
-    command = [*GAITSIM, "analyze", str(HEALTHY), *map(str, words.specs), "--from-time", "4 s", "--no-video"]
-    sys.exit(subprocess.run([*command, "--folder", words.folder], check=False).returncode)
+    options = parser.parse_args()
+    for spec in () if options.compare else options.specs:
+        tune(spec, options)
+    command = [*GAITSIM, "analyze", str(HEALTHY), *map(str, options.specs), "--from-time", "4 s", "--no-video"]
+    sys.exit(subprocess.run([*command, "--folder", options.folder], check=False).returncode)
 
 
 if __name__ == "__main__":

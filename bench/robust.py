@@ -72,13 +72,13 @@ def main() -> None:
     parser.add_argument("--spread-factor", type=float, default=0.1, help="on the spreads of the spec")
     parser.add_argument("--seed", type=int, default=1, help="of the search and of the draws")
     parser.add_argument("--set", action="append", default=[], help="ADDRESS=VALUE; repeatable")
-    words = parser.parse_args()
-    model = Opening(words.spec, tuple(words.set)).open().model()
-    robust = Robust(model, words.draws, words.within, words.seed)
+    options = parser.parse_args()
+    model = Opening(options.spec, tuple(options.set)).open().model()
+    robust = Robust(model, options.draws, options.within, options.seed)
     bounds = [list(robust.low / robust.spreads), list(robust.high / robust.spreads)]
-    options = {"bounds": bounds, "popsize": words.population, "seed": words.seed, "verbose": -9}
-    search = cma.CMAEvolutionStrategy(robust.start, words.spread_factor, options)
-    for generation in range(words.generations):
+    settings = {"bounds": bounds, "popsize": options.population, "seed": options.seed, "verbose": -9}
+    search = cma.CMAEvolutionStrategy(robust.start, options.spread_factor, settings)
+    for generation in range(options.generations):
         robust.renew()
         candidates = search.ask()
         costs = [robust.cost(candidate) for candidate in candidates]
@@ -86,7 +86,7 @@ def main() -> None:
         print(f"generation {generation + 1}: least {min(costs):.2f}, median {np.median(costs):.2f}", flush=True)
         center = np.asarray(search.result.xfavorite)
         text = written(model, robust.values(center), robust.cost(center))
-        tuned_path(words.spec).write_text(text, encoding="utf-8")
+        tuned_path(options.spec).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -37,16 +37,18 @@ def starts(report: Report) -> Iterator[str]:
         least = statistics.median(_seconds(place, "--version") for _ in range(REPEATS))
         for name in SPECS:
             if report.has_time(f"first run of {name}"):
-                words = ("run", str(folder / f"{name}.yaml"), "--no-save")
+                arguments = ("run", str(folder / f"{name}.yaml"), "--no-save")
                 with tempfile.TemporaryDirectory() as empty:
-                    first = _seconds(empty, *words)
-                    later = statistics.median(_seconds(empty, *words) for _ in range(REPEATS))
+                    first = _seconds(empty, *arguments)
+                    later = statistics.median(_seconds(empty, *arguments) for _ in range(REPEATS))
                 report.add(name, {"first run": first, "later runs": later, "version": least})
     yield from ()
 
 
-def _seconds(cache: str, *words: str) -> float:
+def _seconds(cache: str, *arguments: str) -> float:
     environment = os.environ | {"GAITSIM_CACHE": cache, "NUMBA_CACHE_DIR": f"{cache}/numba"}
     began = time.perf_counter()
-    subprocess.run([sys.executable, "-c", COMMAND, *words], env=environment, check=True, capture_output=True, cwd=cache)
+    subprocess.run(
+        [sys.executable, "-c", COMMAND, *arguments], env=environment, check=True, capture_output=True, cwd=cache
+    )
     return time.perf_counter() - began

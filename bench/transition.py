@@ -68,19 +68,19 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--instants", type=int, default=10, help="in one stride of the walker")
     parser.add_argument("--seconds", type=float, default=10, help="duration of each run")
-    words = parser.parse_args()
+    options = parser.parse_args()
     _, walk = run("walking_geyer2010.yaml", "simulate.duration=7 s")
     first, last = [at for at in touchdowns(walk, "r") if walk.times[at] > 5][:2]
     print(f"walker: {mean_speed(walk, 5, 7):.2f} m/s")
     print("% of the stride  upright (s)  first 2 s (m/s)  last 2 s (m/s)  last 3 s: steps, with flight")
-    for number in range(words.instants):
-        at = first + (last - first) * number // words.instants
-        duration = f"simulate.duration={words.seconds} s"
+    for number in range(options.instants):
+        at = first + (last - first) * number // options.instants
+        duration = f"simulate.duration={options.seconds} s"
         outcome, made = run("running_wang2012.yaml", duration, *handed(walk, int(at)))
         end = outcome.metrics["fall_time"]
         speeds = f"{mean_speed(made, 0, min(2, end)):15.2f}  {mean_speed(made, max(0, end - 2), end):14.2f}"
         count, with_flight = flights(made, end - 3)
-        print(f"{100 * number / words.instants:15.0f}  {end:11.1f}  {speeds}  {count:21}, {with_flight}", flush=True)
+        print(f"{100 * number / options.instants:15.0f}  {end:11.1f}  {speeds}  {count:21}, {with_flight}", flush=True)
 
 
 if __name__ == "__main__":

@@ -112,11 +112,11 @@ def journal(folder: Path, search: subprocess.Popen[str]) -> Iterator[dict[str, A
         time.sleep(0.05)
 
 
-def first_walks(words: Sequence[str]) -> dict[str, Seen | None]:
+def first_walks(arguments: Sequence[str]) -> dict[str, Seen | None]:
     """Run a search until every goal is reached, or to its end."""
     found: dict[str, Seen | None] = dict.fromkeys(GOALS)
     with tempfile.TemporaryDirectory() as folder:
-        command = [sys.executable, "-m", "gaitsim.cli.main", "optimize", str(SPEC), *words]
+        command = [sys.executable, "-m", "gaitsim.cli.main", "optimize", str(SPEC), *arguments]
         began = time.perf_counter()
         with subprocess.Popen(
             command, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, text=True
@@ -130,12 +130,12 @@ def first_walks(words: Sequence[str]) -> dict[str, Seen | None]:
     return found
 
 
-def searches(words: argparse.Namespace, console: Console, title: str, *more: str) -> None:
+def searches(options: argparse.Namespace, console: Console, title: str, *more: str) -> None:
     """First walks of several seeds, and their medians."""
     table = Table("seed", *GOALS, title=f"{title}: evaluations / generations / seconds of wall time")
     every = []
-    for seed in range(1, words.seeds + 1):
-        found = first_walks(["--seed", str(seed), "--generations", str(words.generations), *more])
+    for seed in range(1, options.seeds + 1):
+        found = first_walks(["--seed", str(seed), "--generations", str(options.generations), *more])
         every.append(found)
         cells = ("-" if s is None else f"{s.evaluations} / {s.generations} / {s.seconds:.1f}" for s in found.values())
         table.add_row(str(seed), *cells)
@@ -147,33 +147,33 @@ def searches(words: argparse.Namespace, console: Console, title: str, *more: str
     console.print(table)
 
 
-def seeds(words: argparse.Namespace, console: Console) -> None:
+def seeds(options: argparse.Namespace, console: Console) -> None:
     """From the published gains and pose."""
-    searches(words, console, "From the published gains")
+    searches(options, console, "From the published gains")
 
 
-def middle(words: argparse.Namespace, console: Console) -> None:
+def middle(options: argparse.Namespace, console: Console) -> None:
     """From the middle of all bounds, with spreads three times as wide."""
-    searches(words, console, "From the middle of all bounds", "--from", "middle", "--set", "optimize.spread_factor=3")
+    searches(options, console, "From the middle of all bounds", "--from", "middle", "--set", "optimize.spread_factor=3")
 
 
-def swaps(words: argparse.Namespace, console: Console) -> None:
+def swaps(options: argparse.Namespace, console: Console) -> None:
     """Another model for one kind of part: the archived values, and values tuned again from them."""
     table = Table("swap", "evaluations", *SHOWN.values(), title="Archived values with another model, then tuned again")
     for name, settings in SWAPS.items():
         before = Simulator(Opening(SPEC, tuple(settings)).open().model()).run()
         table.add_row(name, "0", *said(before.metrics))
         with tempfile.TemporaryDirectory() as folder:
-            evaluations, after = retuned(settings, words, words.keep or folder)
+            evaluations, after = retuned(settings, options, options.keep or folder)
         table.add_row("" if after else "no candidate runs", str(evaluations), *said(after))
     console.print(table)
 
 
-def retuned(settings: Sequence[str], words: argparse.Namespace, folder: str) -> tuple[int, Mapping[str, Any]]:
+def retuned(settings: Sequence[str], options: argparse.Namespace, folder: str) -> tuple[int, Mapping[str, Any]]:
     """Evaluations of a search over 10 s of walking, and what its best candidate does in 20 s; nothing if all fail."""
-    used = [*settings, "simulate.duration=10 s", f"optimize.spread_factor={words.spread_factor}"]
+    used = [*settings, "simulate.duration=10 s", f"optimize.spread_factor={options.spread_factor}"]
     command = [sys.executable, "-m", "gaitsim.cli.main", "optimize", str(SPEC), "--from", "tuned", "--json"]
-    command += ["--generations", str(words.generations), *(word for setting in used for word in ("--set", setting))]
+    command += ["--generations", str(options.generations), *(word for setting in used for word in ("--set", setting))]
     ran = subprocess.run(command, cwd=folder, stdout=subprocess.PIPE, text=True, check=False)
     search = json.loads(ran.stdout)
     if ran.returncode:
@@ -193,9 +193,9 @@ def main() -> None:
     parser.add_argument("--generations", type=int, default=60, help="of each search, at most")
     parser.add_argument("--spread-factor", type=float, default=1.0, help="of swaps")
     parser.add_argument("--keep", metavar="FOLDER", help="where results of swaps are kept; unless given, nowhere")
-    words = parser.parse_args()
-    for name in words.tables:
-        TABLES[name](words, Console(width=150))
+    options = parser.parse_args()
+    for name in options.tables:
+        TABLES[name](options, Console(width=150))
 
 
 if __name__ == "__main__":
