@@ -1,116 +1,169 @@
-"""Search for a walk in space with equal steps: `python bench/regular.py SPEC MINUTES --to values.json`.
+"""Search for a robust walk in space: `python bench/regular.py SPEC MINUTES --to values.json`.
 
-The time until a fall says little while all candidates fall. How far touchdowns differ from one another says more, and a
-candidate that was changed at random says whether deviations decay. The cost is the mean square of seven deviations from
-their medians over the touchdowns of a run: yaw, roll and pitch of the pelvis, lateral velocity of the center of mass,
-its distance to the side of the new foot, duration of the step, and speed; signs are mirrored on the left. A touchdown
-that a fall prevents costs 9. CMA-ES with a diagonal covariance evaluates each candidate once, changed at random, and
-writes the mean of its distribution. With `--descend`, central differences give the slope of the mean cost of some
-random changes, and the values move against it; a step takes longer and brings more. A table says how the result walks
-if it is changed by up to 1 %.
+The time until a fall says little while all candidates fall. How far touchdowns differ from one another says more: the
+cost of a run is the mean square of six deviations from their medians over its touchdowns. They are roll and pitch of
+the pelvis, lateral velocity of the center of mass and its distance to the side of the new foot, both relative to the
+heading, duration of the step, and speed; signs are mirrored on the left. A touchdown that a fall prevents costs 9.
+
+A robust walk bears changes of its values, and random changes make a cost that is mostly noise. The search therefore
+finds the directions in which small changes of all values move the first steps most (a singular value decomposition of
+central differences). It runs each candidate as it is and changed along these directions, to both sides, as far as
+random changes of up to 1 % reach in `--deviations` standard deviations. CMA-ES minimizes the mean. It writes the mean
+of its distribution, and prints how long that walks if all values are changed at random by up to 1 %.
 """
 
 from __future__ import annotations
 
 import argparse
 import json
+import math
 import time
+from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import cma
 import numpy as np
-from touchdowns import SCALES, touchdowns
 
 from gaitsim.model import Model
-from gaitsim.simulation.outcome import Outcome
+from gaitsim.simulation.outcome import Outcome, Trajectory
 from gaitsim.simulation.run import Simulator
 from gaitsim.study.opening import Opening
 
+# Deviations that cost 1: rad, rad, m/s, m, s, m/s.
+SCALES = np.array([0.06, 0.08, 0.1, 0.04, 0.05, 0.12])
 MOST = 9.0  # cost of a touchdown that differs much, or is missing
 SETTLED = 2  # touchdowns before the first that counts
-USUAL = 0.56  # s: between two touchdowns
-SLOWEST, FASTEST = 1.0, 1.45  # m/s
-# Of the slope: differences to either side and lengths of a step, in spreads of the spec.
-DIFFERENCE, LENGTHS = 0.06, (0.003, 0.01, 0.03, 0.1)
+SHORTEST, USUAL = 0.5, 0.56  # s: between touchdowns of a foot at least, and between two touchdowns usually
+SHARE = 0.01  # largest relative change of a value
+DIFFERENCE = 0.002  # of values, relative, for central differences
+COMPARED = slice(1, 8)  # touchdowns whose differences tell the directions
+AGAIN = 16  # generations until the directions are determined again
 
 
-def cost(outcome: Outcome, duration: float) -> float:
-    """How far the steps of a walk differ, and its speed from people's."""
-    assert outcome.trajectory is not None
-    rows = touchdowns(outcome.trajectory) if len(outcome.trajectory.times) > 1 else np.zeros((0, 7))
-    if len(rows) <= SETTLED + 1:
-        return MOST * (2 - outcome.simulated_seconds / duration)
-    wanted = int(duration / USUAL)
-    rows = rows[SETTLED:wanted]
-    each = np.minimum(MOST, np.mean(((rows - np.median(rows, axis=0)) / SCALES) ** 2, axis=1))
-    missing = max(0, wanted - SETTLED - len(rows)) if outcome.status != "completed" else 0
-    speed = float(np.median(rows[:, 6]))
-    wrong = max(0.0, SLOWEST - speed, speed - FASTEST)
-    return float((each.sum() + MOST * missing) / (len(rows) + missing) + 10 * wrong)
+def touchdowns(found: Trajectory) -> Any:
+    """What a walk is like 0.1 s after each touchdown: a row of six numbers, as in the module's text."""
+    times, rows = found.times, []
+    later = round(0.1 / (times[1] - times[0]))
+    for leg, sign in (("l", -1), ("r", 1)):
+        loaded, before = found[f"leg_{leg}.ground.load"] > 0.1, -1.0
+        for k in np.flatnonzero(loaded[1:] & ~loaded[:-1]) + 1:
+            if times[k] - before < SHORTEST:
+                continue
+            before, j = times[k], min(k + later, len(times) - 1)
+            cosine, sine = math.cos(found["root.yaw"][j]), math.sin(found["root.yaw"][j])
+            forward, left = found["center.forward_velocity"][j], found["center.left_velocity"][j]
+            ahead = found["center.forward"][j] - found[f"leg_{leg}.heel.position"][j]
+            aside = found["center.left"][j] - found[f"leg_{leg}.heel.side_position"][j]
+            turned = [sign * found["root.roll"][j], found["root.pitch"][j]]
+            moved = [sign * (cosine * left - sine * forward), sign * (cosine * aside - sine * ahead)]
+            rows.append([times[k], *turned, *moved, 0.0, cosine * forward + sine * left])
+    table = np.array(sorted(rows)).reshape(-1, 7)
+    table[:, 5] = np.diff(table[:, 0], prepend=np.nan)
+    return table[:, 1:]
 
 
 @dataclass
 class Walks:
-    """Runs of one model at values that are changed at random by up to a share."""
+    """Runs of one model.
+
+    Attributes:
+        model: The model.
+        slowest: Speed in m/s below which a walk costs more.
+    """
 
     model: Model
-    share: float
+    slowest: float = 1.0
 
     def __post_init__(self) -> None:
         self.simulator = Simulator(self.model)
         self.low, self.high = (np.array([getattr(free, end) for free in self.model.free]) for end in ("low", "high"))
 
-    def run(self, x: Any, seed: list[int], share: float | None = None) -> Outcome:
+    def run(self, x: Any) -> Outcome:
         """Run a candidate, within the bounds."""
-        within = self.share if share is None else share
-        changed = x * (1 + within * np.random.default_rng(seed).uniform(-1, 1, len(x)))
-        return self.simulator.run(np.clip(changed, self.low, self.high).tolist(), recorded=True)
+        return self.simulator.run(np.clip(x, self.low, self.high).tolist(), recorded=True)
 
-    def mean_cost(self, x: Any, seeds: list[list[int]]) -> float:
-        """The mean cost of several random changes."""
-        return float(np.mean([self.cost(x, seed) for seed in seeds]))
+    def cost(self, x: Any) -> float:
+        """How far the steps of a walk differ, and how much it is too slow."""
+        outcome, duration = self.run(x), self.model.simulate.duration
+        rows = self._rows(outcome)
+        if len(rows) <= SETTLED + 1:
+            return MOST * (2 - outcome.simulated_seconds / duration)
+        wanted = int(duration / USUAL)
+        rows = rows[SETTLED:wanted]
+        each = np.minimum(MOST, np.mean(((rows - np.median(rows, axis=0)) / SCALES) ** 2, axis=1))
+        missing = max(0, wanted - SETTLED - len(rows)) if outcome.status != "completed" else 0
+        slow = max(0.0, self.slowest - float(np.median(rows[:, 5])))
+        return float((each.sum() + MOST * missing) / (len(rows) + missing) + 10 * slow)
 
-    def cost(self, x: Any, seed: list[int]) -> float:
-        """The cost of one run, and of values beyond the bounds."""
-        beyond = (x - np.clip(x, self.low, self.high)) / np.array([free.spread for free in self.model.free])
-        return cost(self.run(x, seed), self.model.simulate.duration) + 10 * float(beyond @ beyond)
+    def first_steps(self, x: Any) -> Any:
+        """The first touchdowns in units of their scales; none if the walker falls before."""
+        rows = self._rows(self.run(x))[COMPARED]
+        return (rows / SCALES).ravel() if len(rows) == COMPARED.stop - COMPARED.start else None
+
+    def lasts(self, x: Any) -> float:
+        """How long a candidate stays up, in s."""
+        return self.run(x).simulated_seconds
+
+    def _rows(self, outcome: Outcome) -> Any:
+        found = outcome.trajectory
+        return touchdowns(found) if found is not None and len(found.times) > 1 else np.zeros((0, 6))
 
 
-def search(walks: Walks, start: Any, minutes: float, scale: float, population: int) -> Any:
+_WALKS: list[Walks] = []  # of this process
+
+
+def _prepare(spec: Path, settings: tuple[str, ...], slowest: float) -> None:
+    _WALKS[:] = [Walks(Opening(spec, settings).open().model(), slowest)]
+
+
+def _called(method: str, x: Any) -> Any:
+    return getattr(_WALKS[0], method)(x)
+
+
+@dataclass
+class Pool:
+    """Calls methods of `Walks` in two processes."""
+
+    processes: ProcessPoolExecutor
+
+    def each(self, method: str, candidates: list[Any]) -> list[Any]:
+        """The results of a method for some candidates."""
+        return list(self.processes.map(_called, [method] * len(candidates), candidates, chunksize=4))
+
+
+def directions(pool: Pool, x: Any, count: int) -> Any:
+    """Relative changes of all values, of size 1, that move the first steps most; a row for each."""
+    ends = [x * (1 + sign * DIFFERENCE * row) for row in np.eye(len(x)) for sign in (1, -1)]
+    steps = pool.each("first_steps", ends)
+    slopes = np.zeros((len(SCALES) * (COMPARED.stop - COMPARED.start), len(x)))
+    for i, (after, before) in enumerate(zip(steps[::2], steps[1::2], strict=True)):
+        if after is not None and before is not None:
+            slopes[:, i] = np.nan_to_num(after - before)
+    return np.linalg.svd(slopes, full_matrices=False)[2][:count]
+
+
+def search(walks: Walks, start: Any, pool: Pool, given: argparse.Namespace) -> Any:
     """The mean of CMA-ES after some time."""
-    spreads = [scale * free.spread for free in walks.model.free]
-    options = {"popsize": population, "CMA_stds": spreads, "CMA_diagonal": True, "seed": 1, "verbose": -9}
-    found = cma.CMAEvolutionStrategy(start, 1.0, options)
-    end, generation = time.monotonic() + 60 * minutes, 0
+    spreads = [given.scale * free.spread for free in walks.model.free]
+    bounds = [walks.low.tolist(), walks.high.tolist()]
+    options = {"popsize": given.population, "CMA_stds": spreads, "bounds": bounds, "seed": given.seed, "verbose": -9}
+    found = cma.CMAEvolutionStrategy(np.clip(start, walks.low, walks.high), 1.0, options)
+    far = given.deviations * SHARE / math.sqrt(3)  # the standard deviation of a uniform distribution
+    center, end, generation = start, time.monotonic() + 60 * given.minutes, 0
     while time.monotonic() < end:
+        if generation % AGAIN == 0:
+            most = directions(pool, center, given.directions)
+            changes = [np.zeros(len(start)), *(far * most), *(-far * most)]
         generation += 1
         candidates = found.ask()
-        costs = [walks.cost(np.array(x), [generation, k]) for k, x in enumerate(candidates)]
-        found.tell(candidates, costs)
-        if generation % 10 == 0:
-            print(f"generation {generation}: lowest {min(costs):.3g}, median {np.median(costs):.3g}", flush=True)
-    return np.clip(found.mean, walks.low, walks.high)
-
-
-def descend(walks: Walks, start: Any, minutes: float, draws: int) -> Any:
-    """The values that are reached against the slope of the mean cost of some draws, which are new in each iteration."""
-    spreads = np.array([free.spread for free in walks.model.free])
-    end, x, iteration = time.monotonic() + 60 * minutes, np.array(start), 0
-    while time.monotonic() < end:
-        iteration += 1
-        seeds = [[iteration, draw] for draw in range(draws)]
-        before = walks.mean_cost(x, seeds)
-        slope = np.zeros(len(x))
-        for i, move in enumerate(np.diag(DIFFERENCE * spreads)):
-            slope[i] = walks.mean_cost(x + move, seeds) - walks.mean_cost(x - move, seeds)
-        way = -slope * spreads * np.sqrt(len(x)) / max(float(np.linalg.norm(slope)), 1e-12)
-        tried = [np.clip(x + length * way, walks.low, walks.high) for length in (0, *LENGTHS)]
-        costs = [walks.mean_cost(each, seeds) for each in tried]
-        x = tried[int(np.argmin(costs))]
-        print(f"iteration {iteration}: {before:.3g}, then {min(costs):.3g}", flush=True)
-    return x
+        runs = [np.array(x) * (1 + change) for x in candidates for change in changes]
+        costs = np.reshape(pool.each("cost", runs), (len(candidates), -1)).mean(axis=1)
+        found.tell(candidates, costs.tolist())
+        center = np.clip(found.result.xfavorite, walks.low, walks.high)
+        print(f"generation {generation}: lowest {min(costs):.3g}, median {np.median(costs):.3g}", flush=True)
+    return center
 
 
 def main() -> None:
@@ -120,26 +173,27 @@ def main() -> None:
     parser.add_argument("minutes", type=float)
     parser.add_argument("--from", dest="start", type=Path, help="values by address in SI; tuned values by default")
     parser.add_argument("--to", type=Path, default=Path("values.json"))
-    parser.add_argument("--seconds", type=float, default=9)
-    parser.add_argument("--step", default="2 ms")
-    parser.add_argument("--share", type=float, default=0.004)
-    parser.add_argument("--scale", type=float, default=0.2, help="spreads of the search, in those of the spec")
-    parser.add_argument("--population", type=int, default=40)
-    parser.add_argument("--descend", type=int, metavar="DRAWS", help="descend on the mean of so many draws")
+    parser.add_argument("--seconds", type=float, default=12, help="duration of a run")
+    parser.add_argument("--step", default="2 ms", help="of a run")
+    parser.add_argument("--slowest", type=float, default=1.0, help="speed in m/s below which a walk costs more")
+    parser.add_argument("--directions", type=int, default=3, help="directions in which each candidate is changed")
+    parser.add_argument("--deviations", type=float, default=1.5, help="how far, in standard deviations")
+    parser.add_argument("--scale", type=float, default=0.1, help="spreads of the search, in those of the spec")
+    parser.add_argument("--population", type=int, default=24)
+    parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     settings = (f"simulate.step={given.step}", f"simulate.duration={given.seconds:g} s")
-    walks = Walks(Opening(given.spec, settings).open().model(), given.share)
+    walks = Walks(Opening(given.spec, settings).open().model(), given.slowest)
     names = [free.address for free in walks.model.free]
     known = json.loads(given.start.read_text()) if given.start else dict(zip(names, walks.model.start, strict=True))
     start = np.array([known[name] for name in names])
-    if given.descend:
-        found = descend(walks, start, given.minutes, given.descend)
-    else:
-        found = search(walks, start, given.minutes, given.scale, given.population)
-    given.to.write_text(json.dumps(dict(zip(names, found.tolist(), strict=True)), indent=0))
-    for draw in range(10):
-        ended = walks.run(found, [0, draw], 0.01)
-        print(f"draw {draw + 1}: {ended.status} after {ended.simulated_seconds:.3g} s")
+    with ProcessPoolExecutor(2, initializer=_prepare, initargs=(given.spec, settings, given.slowest)) as processes:
+        pool = Pool(processes)
+        found = search(walks, start, pool, given)
+        given.to.write_text(json.dumps(dict(zip(names, found.tolist(), strict=True)), indent=0))
+        shares = np.random.default_rng(given.seed).uniform(-SHARE, SHARE, (10, len(found)))
+        for draw, lasted in enumerate(pool.each("lasts", list(found * (1 + shares)))):
+            print(f"draw {draw + 1}: {lasted:.3g} s of {given.seconds:g} s")
 
 
 if __name__ == "__main__":
