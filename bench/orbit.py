@@ -1,6 +1,6 @@
 """How a deviation of a walk in space grows from touchdown to touchdown: `python bench/orbit.py`.
 
-The start is turned by 2 and 5 mrad in roll, to both sides. At each touchdown seven numbers of the walk
+The start is turned by 2 and 5 mrad in roll, to both sides. At each touchdown six numbers of the walk
 (`touchdowns.py`) are compared with those of the undisturbed one. It draws docs/pictures/scone_growth.png and prints the
 factor per step.
 """

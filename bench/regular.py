@@ -25,43 +25,20 @@ from typing import Any
 
 import cma
 import numpy as np
+from touchdowns import SCALES, touchdowns
 
 from gaitsim.model import Model
-from gaitsim.simulation.outcome import Outcome, Trajectory
+from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
 from gaitsim.study.opening import Opening
 
-# Deviations that cost 1: rad, rad, m/s, m, s, m/s.
-SCALES = np.array([0.06, 0.08, 0.1, 0.04, 0.05, 0.12])
 MOST = 9.0  # cost of a touchdown that differs much, or is missing
 SETTLED = 2  # touchdowns before the first that counts
-SHORTEST, USUAL = 0.5, 0.56  # s: between touchdowns of a foot at least, and between two touchdowns usually
+USUAL = 0.56  # s: between touchdowns
 SHARE = 0.01  # largest relative change of a value
 DIFFERENCE = 0.002  # of values, relative, for central differences
 COMPARED = slice(1, 8)  # touchdowns whose differences tell the directions
 AGAIN = 16  # generations until the directions are determined again
-
-
-def touchdowns(found: Trajectory) -> Any:
-    """What a walk is like 0.1 s after each touchdown: a row of six numbers, as in the module's text."""
-    times, rows = found.times, []
-    later = round(0.1 / (times[1] - times[0]))
-    for leg, sign in (("l", -1), ("r", 1)):
-        loaded, before = found[f"leg_{leg}.ground.load"] > 0.1, -1.0
-        for k in np.flatnonzero(loaded[1:] & ~loaded[:-1]) + 1:
-            if times[k] - before < SHORTEST:
-                continue
-            before, j = times[k], min(k + later, len(times) - 1)
-            cosine, sine = math.cos(found["root.yaw"][j]), math.sin(found["root.yaw"][j])
-            forward, left = found["center.forward_velocity"][j], found["center.left_velocity"][j]
-            ahead = found["center.forward"][j] - found[f"leg_{leg}.heel.position"][j]
-            aside = found["center.left"][j] - found[f"leg_{leg}.heel.side_position"][j]
-            turned = [sign * found["root.roll"][j], found["root.pitch"][j]]
-            moved = [sign * (cosine * left - sine * forward), sign * (cosine * aside - sine * ahead)]
-            rows.append([times[k], *turned, *moved, 0.0, cosine * forward + sine * left])
-    table = np.array(sorted(rows)).reshape(-1, 7)
-    table[:, 5] = np.diff(table[:, 0], prepend=np.nan)
-    return table[:, 1:]
 
 
 @dataclass

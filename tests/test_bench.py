@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -21,28 +22,40 @@ def bench(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.delitem(sys.modules, path.stem, raising=False)
 
 
-def test_touchdowns_of_a_walk_that_is_known() -> None:
+@pytest.mark.parametrize("heading", [0.0, 0.7])
+def test_touchdowns_of_a_walk_that_is_known(heading: float) -> None:
     """It steps every 0.5 s, left first, at 1.2 m/s. It sways to the standing foot, which is 8 cm aside."""
     from touchdowns import touchdowns
 
     times = np.arange(0, 4, 0.01)
     side = np.where(np.floor(times / 0.5 + 1e-9) % 2 == 0, 1.0, -1.0)  # 1 while the left foot stands
+    cosine, sine = np.cos(heading), np.sin(heading)
+
+    def ahead(forward: Any, left: Any) -> Any:
+        return cosine * forward - sine * left
+
+    def aside(forward: Any, left: Any) -> Any:
+        return sine * forward + cosine * left
+
     signals = {
         "leg_l.ground.load": side > 0,
         "leg_r.ground.load": side < 0,
-        "leg_l.heel.side_position": 0.08 + 0 * times,
-        "leg_r.heel.side_position": -0.08 + 0 * times,
-        "center.left": 0.02 * side,
-        "center.left_velocity": 0.3 * side,
-        "center.forward_velocity": 1.2 + 0 * times,
-        "root.yaw": 0.04 * side,
+        "leg_l.heel.position": ahead(1.2 * times + 0.3, 0.08),
+        "leg_r.heel.position": ahead(1.2 * times + 0.3, -0.08),
+        "leg_l.heel.side_position": aside(1.2 * times + 0.3, 0.08),
+        "leg_r.heel.side_position": aside(1.2 * times + 0.3, -0.08),
+        "center.forward": ahead(1.2 * times, 0.02 * side),
+        "center.left": aside(1.2 * times, 0.02 * side),
+        "center.forward_velocity": ahead(1.2, 0.3 * side),
+        "center.left_velocity": aside(1.2, 0.3 * side),
+        "root.yaw": heading + 0 * times,
         "root.roll": 0.05 * side,
         "root.pitch": 0.1 + 0 * times,
     }
     table = np.stack(list(signals.values()), axis=1).astype(float)
     rows = touchdowns(Trajectory(times, tuple(signals), ("1",) * len(signals), table))
     assert len(rows) == 7  # the foot that stands at the start did not land
-    assert rows[1:] == pytest.approx(np.tile([-0.04, -0.05, 0.1, -0.3, 0.06, 0.5, 1.2], (6, 1)))
+    assert rows[1:] == pytest.approx(np.tile([-0.05, 0.1, -0.3, 0.06, 0.5, 1.2], (6, 1)))
 
 
 def test_the_growth_of_a_deviation_is_that_of_the_map() -> None:
@@ -50,8 +63,8 @@ def test_the_growth_of_a_deviation_is_that_of_the_map() -> None:
     from orbit import factor, sizes
     from touchdowns import SCALES
 
-    walk = np.arange(56.0).reshape(8, 7)
-    turns = np.array([[np.cos(0.7 * k), np.sin(0.7 * k), 0, 0, 0, 0, 0] for k in range(8)]) * SCALES
+    walk = np.arange(48.0).reshape(8, 6)
+    turns = np.array([[np.cos(0.7 * k), np.sin(0.7 * k), 0, 0, 0, 0] for k in range(8)]) * SCALES
     others = [walk + first * 1.5 ** np.arange(8)[:, None] * turns for first in (-0.01, 0.04)]
     found = sizes(walk, [*others, others[0][:6]])
     assert found[0] == pytest.approx((0.01 * 0.04 * 0.01) ** (1 / 3))
