@@ -56,8 +56,9 @@ def test_knees_and_ankles_yield_to_the_side_as_much_as_their_stops_let_them() ->
         assert found[f"leg_r.{joint}.stop_moment"] == pytest.approx(-500 * angle, abs=1e-9)
 
 
-def test_the_tuned_values_walk() -> None:
-    found = Simulator(Opening(SPEC).open().model()).run()
+@pytest.mark.parametrize("step", ["0.5 ms", pytest.param("0.25 ms", marks=pytest.mark.slow)])
+def test_the_tuned_values_walk(step: str) -> None:
+    found = Simulator(Opening(SPEC, (f"simulate.step={step}",)).open().model()).run()
     assert found.status == "completed" and found.simulated_seconds == pytest.approx(20)
     assert found.metrics["fall_time.fell"] == 0 and 1.0 < found.metrics["speed"] < 1.5
     assert 0.56 < found.metrics["stance_fraction"] < 0.66

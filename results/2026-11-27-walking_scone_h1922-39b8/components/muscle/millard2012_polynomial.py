@@ -4,7 +4,8 @@ from gaitsim.component import Component, Curve, Input, Output, Parameter, Part, 
 
 from ._hill import METABOLICS, PATH_LENGTH, PENNATE_PATH, PENNATION_ANGLE, STEP_MEASURE, look_ahead
 
-# Powers are written as products, which round identically in Python and in native code.
+# Constants of geijtenbeek2021, for lengths in l_opt, velocities in v_max and forces in F_max. Powers are written as
+# products, which round identically in Python and in native code.
 TENDON_SQUARE, TENDON_LINEAR = 260.972, 7.9706  # c_T1, c_T2
 ACTIVE_CUBE, ACTIVE_SQUARE = 1.5, -2.75  # c_L1, c_L2
 SHORTEST, LONGEST = 0.46899, 1.80528  # r_1, r_2: where f_l vanishes

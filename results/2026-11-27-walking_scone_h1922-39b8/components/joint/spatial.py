@@ -1,4 +1,4 @@
-from gaitsim.component import Attachment, Component, Input, Option, Output
+from gaitsim.component import Attachment, Component, Input, Option, Output, Parameter, Refused
 
 
 class Spatial(Component):
@@ -17,6 +17,13 @@ class Spatial(Component):
         "standing: unless `initial:` sets z, the lowest contact touches the ground at the start.",
         choices=("standing", "free"),
         default="standing",
+    )
+    load = Parameter(
+        "1",
+        "Share of the body weight that the ground carries at the start, instead of the first touch.",
+        default=0,
+        bounds=(0, 10),
+        source="definition: the first touch",
     )
     forward_force = Input("N", "Force on the child's frame, forwards.", sums=True)
     left_force = Input("N", "Force on the child's frame, to the left.", sums=True)
@@ -43,7 +50,11 @@ class Spatial(Component):
         leftwards = mj.slide(axis=(0, 1, 0), suffix="y")
         upwards = mj.slide(axis=(0, 0, 1), suffix="z")
         if p.pose == "standing":
-            mj.stands_on(upwards)
+            mj.stands_on(upwards, load=p.load)
+        elif p.load > 0:
+            raise Refused(
+                f"load is {p.load:g}, but pose: free puts nothing on the ground; choose standing, or remove load"
+            )
         turning = mj.hinge(axis=(0, 0, 1), suffix="yaw")
         rolling = mj.hinge(axis=(1, 0, 0), suffix="roll")
         leaning = mj.hinge(axis=(0, 1, 0), suffix="pitch")

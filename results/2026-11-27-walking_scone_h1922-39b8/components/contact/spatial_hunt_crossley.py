@@ -46,13 +46,17 @@ class SpatialHuntCrossley(Component):
         "terrain",
         "The ground.",
         default="terrain/flat",
-        reads=(("ground_height", "height"),),
-        sends=(("position", "position"),),
+        reads=(("ground_height", "height"), ("gradient", "gradient"), ("side_gradient", "side_gradient")),
+        sends=(("position", "position"), ("side_position", "side_position")),
     )
     ground_height = Input("m", "Height of the ground below the sphere.", default=0)
+    gradient = Input("1", "How much the ground rises there, forwards.", default=0)
+    side_gradient = Input("1", "How much the ground rises there, to the left.", default=0)
     stepped = State(levels=("no", "yes"), doc="No in the first step, yes afterwards.")
     spring_before = State("N", "Normal force without velocity, one step ago.")
     drag_before = State("N s/m", "Damping along the ground, one step ago.")
+    tilt_before = State("N", "Tilt of the normal force, forwards, one step ago.")
+    side_tilt_before = State("N", "Tilt of the normal force, to the left, one step ago.")
     position = Output("m", "Forward position of the sphere's center along the ground.")
     side_position = Output("m", "Position of the sphere's center along the ground, to the left.")
     center_height = Output("m", "Height of the sphere's center.")
@@ -65,6 +69,8 @@ class SpatialHuntCrossley(Component):
     weight = Output("N", "Weight of the whole model.")
     spring = Output("N", "Normal force without velocity.")
     drag = Output("N s/m", "Damping along the ground.")
+    tilt = Output("N", "Forward part of the normal force where the ground rises.")
+    side_tilt = Output("N", "Part of the normal force to the left where the ground rises.")
     force = Output("N", "Force of the ground on the sphere, along the ground's normal; one step old.")
     friction_force = Output("N", "Force of the ground on the sphere along the ground, forwards; one step old.")
     side_force = Output("N", "Force of the ground on the sphere along the ground, to the left; one step old.")
@@ -93,15 +99,19 @@ class SpatialHuntCrossley(Component):
 
     @staticmethod
     def output(p, u, x, y):
-        y.height = y.center_height - p.radius - u.ground_height
+        longer = math.sqrt(1 + u.gradient**2 + u.side_gradient**2)
+        y.height = (y.center_height - u.ground_height) / longer - p.radius
         y.in_contact = 1.0 if y.height < 0 else 0.0
         depth = max(0.0, -y.height)
-        y.spring = (p.stiffness * depth) ** 1.5
-        y.energy = 0.4 * y.spring * depth
+        pressing = (p.stiffness * depth) ** 1.5
+        y.energy = 0.4 * pressing * depth
+        y.spring = pressing / longer
         spring = x.spring_before if x.stepped == 1 else y.spring
-        y.force = spring * max(0.0, 1 - 1.5 * p.dissipation * y.velocity)
-        y.friction_force = -x.drag_before * y.slip_velocity
-        y.side_force = -x.drag_before * y.side_slip_velocity
+        share = max(0.0, 1 - 1.5 * p.dissipation * y.velocity)
+        y.force = spring * share
+        y.tilt, y.side_tilt = -u.gradient * y.spring * share, -u.side_gradient * y.spring * share
+        y.friction_force = x.tilt_before - x.drag_before * y.slip_velocity
+        y.side_force = x.side_tilt_before - x.drag_before * y.side_slip_velocity
         y.load = y.force / y.weight if y.weight > 0 else 0.0
         speed = math.sqrt(y.slip_velocity**2 + y.side_slip_velocity**2)
         peak = 2 * (p.static_friction - p.dynamic_friction) / (1 + (speed / p.transition_velocity) ** 2)
@@ -110,6 +120,7 @@ class SpatialHuntCrossley(Component):
     @staticmethod
     def update(p, u, x, y, dt):
         x.stepped, x.spring_before, x.drag_before = 1, y.spring, y.drag
+        x.tilt_before, x.side_tilt_before = y.tilt, y.side_tilt
 
     @staticmethod
     def build(p, mj):
@@ -131,4 +142,5 @@ class SpatialHuntCrossley(Component):
         mj.apply("spring", normal, "ctrl")
         mj.apply("drag", brake, "ctrl")
         mj.apply("drag", side, "ctrl")
+        mj.tilt(center, surface="terrain", forward="tilt", left="side_tilt")
         mj.draw_force(center, up="force", forward="friction_force", left="side_force", surface="terrain")
