@@ -72,7 +72,7 @@ class Posture:
     def extent(self) -> tuple[Floats, Floats]:
         """The lowest and the highest corner of everything visible except the ground, in m."""
         mechanics = self.stage.mechanics
-        seen = np.flatnonzero(mechanics.geom_bodyid > 0)
+        seen = np.flatnonzero((mechanics.geom_bodyid > 0) & (mechanics.geom_rgba[:, 3] > 0))
         low, high = [], []
         for geom in seen:
             middle, half = mechanics.geom_aabb[geom, :3], mechanics.geom_aabb[geom, 3:]

@@ -235,6 +235,7 @@ _KINDS = {
     "tendon": mujoco.mjtObj.mjOBJ_TENDON,
     "actuator": mujoco.mjtObj.mjOBJ_ACTUATOR,
     "sensor": mujoco.mjtObj.mjOBJ_SENSOR,
+    "mocap": mujoco.mjtObj.mjOBJ_BODY,
 }
 # The array of MuJoCo's model with the index of an element's first number; elsewhere it is the element's own.
 _FIRST = {
@@ -243,7 +244,10 @@ _FIRST = {
     "qacc": "jnt_dofadr",
     "qfrc_applied": "jnt_dofadr",
     "sensordata": "sensor_adr",
+    "mocap_pos": "body_mocapid",
+    "mocap_quat": "body_mocapid",
 }
+_NUMBERS = {"mocap_pos": 3, "mocap_quat": 4}  # of each element, where the index of its first number is not known
 
 
 def tie_place(model: Any, tie: Tie) -> int:
@@ -257,7 +261,7 @@ def tie_place(model: Any, tie: Tie) -> int:
         return tie.index
     element = mujoco.mj_name2id(model, _KINDS[tie.element.kind], tie.element.name)
     first = getattr(model, _FIRST[tie.field])[element] if tie.field in _FIRST else element
-    return int(first) + tie.index
+    return int(first) * _NUMBERS.get(tie.field, 1) + tie.index
 
 
 def _compiled(spec: Any, parts: Mapping[str, Part]) -> Any:

@@ -4,10 +4,11 @@ from gaitsim.component import Attachment, Component, Input, Option, Output, Para
 
 
 class Mujoco(Component):
-    """MuJoCo's own contact: a sphere at a point of a body against the ground, with friction.
+    """MuJoCo's own contact: a sphere at a point of a body against the ground, with friction in both directions.
 
     It has no stiffness in N/m. Depth and closing velocity set an acceleration, so the depth does not depend on mass.
-    The solver computes the force after all outputs, so the force that is read is one step old.
+    The solver computes the force after all outputs, so the force that is read is one step old. On uneven ground, the
+    sphere rests on the plane that touches the ground below its center, as it was one step before.
     """
 
     frame = Attachment("The center of the sphere.")
@@ -63,21 +64,28 @@ class Mujoco(Component):
         "terrain",
         "The ground.",
         default="terrain/flat",
-        reads=(("ground_height", "height"), ("ground_slope", "slope")),
-        sends=(("position", "position"),),
+        reads=(("ground_height", "height"), ("gradient", "gradient"), ("side_gradient", "side_gradient")),
+        sends=(("position", "position"), ("side_position", "side_position")),
     )
     ground_height = Input("m", "Height of the ground below the sphere.", default=0)
-    ground_slope = Input("rad", "Slope of the ground in the forward direction.", default=0)
-    position = Output("m", "Position of the sphere's center along the ground.")
+    gradient = Input("1", "How much the ground rises there, forwards.", default=0)
+    side_gradient = Input("1", "How much the ground rises there, to the left.", default=0)
+    slope = Output("rad", "Slope of the whole ground in the forward direction.")
+    side_slope = Output("rad", "Slope of the whole ground to the left, about its forward direction.")
+    tilt = Output("1", "1 + sqrt(1 + the squares of both gradients): 2 where the ground does not rise.")
+    position = Output("m", "Position of the sphere's center along the ground, forwards.")
+    side_position = Output("m", "Position of the sphere's center along the ground, to the left.")
     center_height = Output("m", "Height of the sphere's center.")
     height = Output(
         "m", "Height of the sphere's lowest point above the ground.", usual=(-0.03, 100), possible=(-0.3, 1e4)
     )
     weight = Output("N", "Weight of the whole model.")
     pushed_forwards = Output("N", "Forward force of the sphere on the ground, in the world.")
+    pushed_left = Output("N", "Force of the sphere on the ground to the left, in the world.")
     pushed_upwards = Output("N", "Upward force of the sphere on the ground, in the world.")
-    force = Output("N", "Force of the ground on the sphere, along the ground's normal; one step old.")
-    friction_force = Output("N", "Force of the ground on the sphere, forwards along the ground; one step old.")
+    force = Output("N", "Force of the ground on the sphere, along the whole ground's normal; one step old.")
+    friction_force = Output("N", "Force of the ground on the sphere along the whole ground, forwards; one step old.")
+    side_force = Output("N", "Force of the ground on the sphere along the whole ground, to the left; one step old.")
     load = Output("1", "Force in body weights; one step old.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy, computed as that of a linear spring: force times depth / 2; one step old.")
@@ -91,11 +99,16 @@ class Mujoco(Component):
 
     @staticmethod
     def output(p, u, x, y):
-        cosine, sine = math.cos(u.ground_slope), math.sin(u.ground_slope)
-        y.height = y.center_height - p.radius - u.ground_height
+        longer = math.sqrt(1 + u.gradient**2 + u.side_gradient**2)
+        y.tilt = 1 + longer
+        y.height = (y.center_height - p.radius - u.ground_height + p.radius * (1 - longer)) / longer
         y.in_contact = 1.0 if y.height < 0 else 0.0
-        y.force = y.pushed_forwards * sine - y.pushed_upwards * cosine
+        cosine, sine = math.cos(y.slope), math.sin(y.slope)
+        side_cosine, side_sine = math.cos(y.side_slope), math.sin(y.side_slope)
+        sunk = y.pushed_forwards * sine - y.pushed_upwards * cosine
         y.friction_force = -y.pushed_forwards * cosine - y.pushed_upwards * sine
+        y.force = sunk * side_cosine + y.pushed_left * side_sine
+        y.side_force = sunk * side_sine - y.pushed_left * side_cosine
         y.load = y.force / y.weight if y.weight > 0 else 0.0
         y.energy = 0.5 * y.force * max(0.0, -y.height)
 
@@ -111,10 +124,16 @@ class Mujoco(Component):
             solimp=(p.impedance_low, p.impedance_high, p.impedance_width, p.impedance_middle, p.impedance_power),
         )
         mj.read("pushed_forwards", touch, "sensordata", 0)
+        mj.read("pushed_left", touch, "sensordata", 1)
         mj.read("pushed_upwards", touch, "sensordata", 2)
+        mj.follow_ground(
+            "position", "side_position", "ground_height", "tilt", "gradient", "side_gradient", surface="terrain"
+        )
+        mj.read_slopes("slope", "side_slope", surface="terrain")
         place = mj.position_of(center, surface="terrain")
         mj.read("position", place, "sensordata", 0)
+        mj.read("side_position", place, "sensordata", 1)
         mj.read("center_height", place, "sensordata", 2)
         mj.touches(center, p.radius)
         mj.read_weight("weight")
-        mj.draw_force(center, up="force", forward="friction_force", surface="terrain")
+        mj.draw_force(center, up="force", forward="friction_force", left="side_force", surface="terrain")

@@ -78,6 +78,7 @@ PLANE = {
 }
 SMOOTH = "dissipation: 0 s/m, static_friction: 0, dynamic_friction: 0"
 SPHERE = f"hunt_crossley, frame: ball.center, {SMOOTH}, viscous_friction: 0 s/m"
+COLLIDED = {**SPACE, "CONTACT": "mujoco, frame: ball.center, radius: 10 cm"}
 POINT = "spring_damper, frame: ball.center, stiffness: 50 kN/m, damping: 0 N s/m"
 
 
@@ -96,7 +97,30 @@ def test_a_ball_that_slides_over_bumps_keeps_its_energy(words: dict[str, str], t
     assert rise == pytest.approx(5 * (speed[-1] ** 2 - speed[0] ** 2), rel=0.03)
 
 
-@pytest.mark.parametrize("contact", ["geyer2010, frame: ball.center", SPHERE, POINT])
+def test_a_ball_of_mujoco_rolls_over_bumps(tmp_path: Path) -> None:
+    """The forces that it reports are those that change its momentum, and it stays on the ground."""
+    found = played(BALL.replace("0.1 ms", "1 ms"), tmp_path, GROUND=ROUGH, **COLLIDED)
+    for velocity, force, weight in (
+        ("root.forward_velocity", "ground.friction_force", 0.0),
+        ("root.left_velocity", "ground.side_force", 0.0),
+        ("root.upward_velocity", "ground.force", 98.1),
+    ):
+        # A force is one step old: it is the one over the step before.
+        changes = 10 * np.diff(found[velocity])
+        assert np.ptp(found[velocity]) > 0.03
+        assert changes == pytest.approx(1e-3 * (found[force][1:] - weight), abs=1e-5)
+    assert np.ptp(found["ground.terrain.height"]) > 0.03
+    assert np.abs(found["ground.height"][500:]).max() < 2e-3
+
+
+def test_a_ball_of_mujoco_without_friction_keeps_its_energy(tmp_path: Path) -> None:
+    found = played(BALL, tmp_path, GROUND=ROUGH, **SPACE | {"CONTACT": f"{COLLIDED['CONTACT']}, friction: 0"})
+    later = found.times > 0.1
+    total = found["energy.total"][later]
+    assert np.ptp(total) < 0.05 * np.ptp(found["energy.kinetic"][later])
+
+
+@pytest.mark.parametrize("contact", ["geyer2010, frame: ball.center", SPHERE, POINT, COLLIDED["CONTACT"]])
 def test_a_model_begins_on_the_ground_below_it(contact: str, tmp_path: Path) -> None:
     text = BALL.replace("root.forward_velocity: 1.5 m/s", "root.x: 3.3 m")
     model = model_of(text, tmp_path, GROUND=ROUGH, **PLANE, CONTACT=contact)
@@ -118,9 +142,10 @@ def test_a_point_sticks_on_a_bump_and_feels_its_tilt(tmp_path: Path) -> None:
     assert found["ground.sticks"][-1] == 1
 
 
-def test_both_modes_make_the_same_run_on_it(tmp_path: Path) -> None:
+@pytest.mark.parametrize("words", [SPACE, COLLIDED])
+def test_both_modes_make_the_same_run_on_it(words: dict[str, str], tmp_path: Path) -> None:
     text = BALL.replace("2 s", "0.1 s").replace("0.1 ms", "1 ms")
-    model = model_of(text, tmp_path, GROUND=ROUGH, **SPACE)
+    model = model_of(text, tmp_path, GROUND=ROUGH, **words)
     rapid, normal = (Simulator(model, mode=mode).run(recorded=True).trajectory for mode in ("rapid", "normal"))
     assert rapid is not None and normal is not None
     assert rapid.values.tobytes() == normal.values.tobytes()

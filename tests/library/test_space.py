@@ -209,6 +209,27 @@ def test_a_block_on_a_slope_that_is_too_steep_slides_down_across(tmp_path: Path)
     assert growth == pytest.approx(9.81 * (math.sin(math.radians(25)) - 0.3 * math.cos(math.radians(25))), rel=0.02)
 
 
+def test_mujocos_spheres_hold_a_block_on_a_slope_across(tmp_path: Path) -> None:
+    slope = math.radians(20)
+    found = played(BLOCK, tmp_path, CONTACT="mujoco, radius: 3 cm", ANGLE="20 deg")
+    # Its friction is soft: the block creeps, by 1 mm/s.
+    assert np.hypot(*(np.ptp(found[f"root.{axis}"][-401:]) for axis in "xy")) < 4e-4
+    normal, side, forward = (
+        sum(found[f"{name}.{kind}"][-401:].mean() for name in ("ball_l", "ball_r", "front"))
+        for kind in ("force", "side_force", "friction_force")
+    )
+    assert normal == pytest.approx(60 * 9.81 * math.cos(slope), rel=1e-3)
+    assert side == pytest.approx(60 * 9.81 * math.sin(slope), rel=1e-3)
+    assert forward == pytest.approx(0, abs=0.1)
+
+
+def test_mujocos_spheres_slide_down_a_slope_across_that_is_too_steep(tmp_path: Path) -> None:
+    found = played(BLOCK, tmp_path, CONTACT="mujoco, radius: 3 cm, friction: 0.3", ANGLE="25 deg")
+    along = -found["root.left_velocity"] / math.cos(math.radians(25))
+    growth = (along[-1] - along[-401]) / 0.2
+    assert growth == pytest.approx(9.81 * (math.sin(math.radians(25)) - 0.3 * math.cos(math.radians(25))), rel=0.02)
+
+
 def test_the_left_side_is_the_mirror_of_the_right_one(tmp_path: Path) -> None:
     text = """
 gaitsim: 1

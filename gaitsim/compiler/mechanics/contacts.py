@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from typing import Any
 
 import mujoco
 
@@ -12,6 +13,8 @@ from gaitsim.compiler.mechanics.places import Point, Relief, Touching, Vector
 from gaitsim.compiler.mechanics.ports import Ports
 from gaitsim.compiler.mechanics.sensors import Sensors
 from gaitsim.compiler.mechanics.ties import Element
+
+_AWAY = 1000.0  # m below the origin, where a plane is until it follows its sphere
 
 
 class Contacts(Actuators, Sensors, Ports):
@@ -37,7 +40,7 @@ class Contacts(Actuators, Sensors, Ports):
         """
         if relief is not None:
             self.made.reliefs[self._name("surface")] = Relief(*relief)
-        self.made.across = self.made.across or across != 0
+        self.made.slopes[self._name("surface")] = (angle, across)
         add_surface(self.spec, self._name("surface"), angle, across, self._info)
         add_ground(self.spec, angle, across, edges, self._info)
 
@@ -76,6 +79,71 @@ class Contacts(Actuators, Sensors, Ports):
         made = self.spec.sensor(sensor.name)
         made.intprm = [1 << int(mujoco.mjtConDataField.mjCONDATA_FORCE), 3, 1]  # the force alone, net of all contacts
         return sensor
+
+    def follow_ground(
+        self, forward: str, left: str, up: str, tilt: str, gradient: str, side_gradient: str, surface: str
+    ) -> None:
+        """Let the sphere of `collide` rest on uneven ground, if an inner part makes that.
+
+        The sphere then touches no ground but a plane of its own. Ports move this plane, so that it is tangent to the
+        ground below the sphere. In the first step it is out of reach.
+
+        Args:
+            forward: The port with the position of the ground below the sphere, forwards, in m.
+            left: The port with that position to the left.
+            up: The port with that position upwards.
+            tilt: The port with 1 + sqrt(1 + g^2 + h^2), of the ports that follow.
+            gradient: The port with g: how much the ground grows forwards.
+            side_gradient: The port with h: how much it grows to the left.
+            surface: The inner part.
+        """
+
+        def follow() -> None:
+            if self._name(f"{surface}.surface") not in self.made.reliefs:
+                return
+            plane = self._plane_below(self.spec.geom(self._name("sphere")))
+            for index, port in enumerate((forward, left, up)):
+                self.apply(port, plane, "mocap_pos", index)
+            for index, port, sign in ((0, tilt, 1), (1, side_gradient, 1), (2, gradient, -1)):
+                self.apply(port, plane, "mocap_quat", index, sign)
+
+        self.made.later.append(follow)
+
+    def _plane_below(self, sphere: Any) -> Element:
+        """A plane that only one sphere touches, with the numbers of that sphere. Ports move it."""
+        name, (slide, spin, roll) = self._name("ground"), sphere.friction
+        body = self.spec.worldbody.add_body(name=name, mocap=True, pos=[0, 0, -_AWAY], info=self._info)
+        body.add_geom(
+            name=name,
+            type=mujoco.mjtGeom.mjGEOM_PLANE,
+            size=[1, 1, 0.1],
+            rgba=[0, 0, 0, 0],
+            **self._massless,
+        )
+        sphere.conaffinity = 0
+        self.spec.add_pair(
+            name=name,
+            geomname1=name,
+            geomname2=sphere.name,
+            condim=sphere.condim,
+            friction=[slide, slide, spin, roll, roll],
+            solref=sphere.solref,
+            solimp=sphere.solimp,
+            info=self._info,
+        )
+        return Element("mocap", name)
+
+    def read_slopes(self, forward: str, left: str, surface: str) -> None:
+        """Let two outputs be the slopes, in rad, of the mean ground that an inner part makes.
+
+        Args:
+            forward: The output with the slope forwards.
+            left: The output with the slope to the left, about the direction forwards along the ground.
+            surface: The inner part.
+        """
+        slopes, name = self.made.slopes, self._name(f"{surface}.surface")
+        self._read_constant(forward, lambda model: slopes[name][0])
+        self._read_constant(left, lambda model: slopes[name][1])
 
     def tilt(self, place: Point, surface: str, forward: str, left: str | None = None) -> None:
         """Push a place along the ground of an inner part by outputs in N, if that ground rises from place to place.

@@ -24,7 +24,7 @@ class Made:
     touching: list[Touching] = field(default_factory=list)
     carried: dict[int, str] = field(default_factory=dict)  # parts that touch the ground: the body they are on
     planar: list[int] = field(default_factory=list)  # segments whose inertia is known about the transverse axis only
-    across: bool = False  # whether there is ground that rises to a side
+    slopes: dict[str, tuple[float, float]] = field(default_factory=dict)  # of grounds by the sites of their surfaces
     reliefs: dict[str, Relief] = field(default_factory=dict)  # uneven ground by the site of its surface
     later: list[Callable[[], None]] = field(default_factory=list)  # what is made once all parts were built
     collided: list[int] = field(default_factory=list)  # parts that MuJoCo keeps out of the ground

@@ -43,9 +43,9 @@ class Ports(Making):
         side = -1.0 if self.part.mirrored else 1.0
         self._read_constant(port, lambda model: side)
 
-    def apply(self, port: str, element: Element, field_name: str, sign: float = 1.0) -> None:
-        """Write an input or output into MuJoCo's data: qfrc_applied of a joint, ctrl of an actuator."""
-        self.made.applies.append((self.index, tied(port, element, field_name, 0, sign)))
+    def apply(self, port: str, element: Element, field_name: str, index: int = 0, sign: float = 1.0) -> None:
+        """Write an input or output into MuJoCo's data: qfrc_applied of a joint, ctrl of an actuator, mocap_pos ..."""
+        self.made.applies.append((self.index, tied(port, element, field_name, index, sign)))
 
     def reset(self, port: str, when: str, joint: Element, field_name: str) -> None:
         """Set qpos or qvel of a joint to an input or output, at events at which the port `when` is 1."""

@@ -51,11 +51,10 @@ def check_inertias(model: Model, spec: Any, made: Made) -> None:
 
 
 def check_grounds(model: Model, made: Made) -> None:
-    """Check that there is one ground, and that the spheres of MuJoCo are on one that rises straight ahead, because
-    their forces are reported along it.
+    """Check that there is one ground.
 
     Raises:
-        InvalidSpec: There are two grounds, or the ground of a sphere is uneven or rises to the side as well.
+        InvalidSpec: There are two.
     """
     faults = Faults()
     uneven = {name.rpartition(".")[0] for name in made.reliefs}
@@ -64,14 +63,6 @@ def check_grounds(model: Model, made: Made) -> None:
         part = next((part for part in grounds if part.address not in uneven), grounds[-1])
         rule = "a model has one ground, and another contact has a different one; write one for all"
         faults.add(f"{rule}: use_for: {{terrain: {{use: terrain/rough}}}}.", part.mark, part.address)
-    for part in (model.parts[index] for index in made.collided if uneven):
-        rule = f"{part.type.reference} collides with even ground only, and this is uneven"
-        faults.add(
-            f"{rule}; choose a contact with a law of its own, such as contact/hunt_crossley.", part.mark, part.address
-        )
-    for part in (model.parts[index] for index in made.collided if made.across):
-        rule = f"{part.type.reference} reports its force along ground that rises straight ahead, and this rises across"
-        faults.add(f"{rule}; choose contact/spatial_hunt_crossley.", part.mark, part.address)
     faults.raise_if_any()
 
 

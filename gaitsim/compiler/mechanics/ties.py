@@ -9,7 +9,7 @@ from gaitsim.errors import did_you_mean, with_article
 
 @dataclass(frozen=True)
 class Element:
-    """A named element of the MuJoCo model: a joint, tendon, actuator, sensor or site."""
+    """A named element of the MuJoCo model: a joint, tendon, actuator, sensor, or a body that is placed (mocap)."""
 
     kind: str
     name: str
@@ -21,6 +21,7 @@ _FIELDS = {
     "tendon": ("ten_length", "ten_velocity"),
     "actuator": ("ctrl", "actuator_length", "actuator_velocity", "actuator_force"),
     "sensor": ("sensordata",),
+    "mocap": ("mocap_pos", "mocap_quat"),
 }
 
 

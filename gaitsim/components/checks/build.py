@@ -18,8 +18,10 @@ VERBS: Mapping[str, tuple[int, tuple[type, ...], str]] = {
     "read_weight": (1, (Output,), "output"),
     "read_key": (1, (Output,), "output"),
     "read_side": (1, (Output,), "output"),
+    "read_slopes": (2, (Output,), "output"),
     "reset": (2, (Input, Output), "input or output"),
     "apply": (1, (Input, Output), "input or output"),
+    "follow_ground": (6, (Input, Output), "input or output"),
 }
 
 
