@@ -8,7 +8,7 @@ class FootPlacement(Component):
 
     A foot in the middle of the way that the hip makes during stance leaves the speed v as it is: the neutral
     point, v T_s/2, with T_s of the stance before. A foot ahead of it brakes, one behind it accelerates. The leg
-    points there, at most 60 deg from the vertical.
+    points there, at most 30 deg from the vertical.
     """
 
     speed = Input("m/s", "v_d: the speed that is asked for.")

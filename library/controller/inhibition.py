@@ -20,7 +20,7 @@ class Inhibition(Component):
     )
     least = Parameter(
         "1",
-        "Lower bound of P - P_off; 0 if a signal below P_off shall have no effect.",
+        "Lower bound of G (P - P_off); with 0, a signal below P_off has no effect.",
         default=-1e6,
         bounds=(-1e6, 0),
         source="definition: a signal below P_off excites",

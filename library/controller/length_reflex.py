@@ -16,7 +16,7 @@ class LengthReflex(Component):
     bias = Parameter("1", "S_0: stimulation at l_off.", default=0.01, bounds=(-1, 1), source="geyer2010")
     least = Parameter(
         "1",
-        "Lower bound of l - l_off; 0 if a fiber shorter than l_off shall have no effect.",
+        "Lower bound of G (l - l_off); with 0 and a positive G, a fiber shorter than l_off has no effect.",
         default=-1e6,
         bounds=(-1e6, 0),
         source="definition: a fiber shorter than l_off inhibits",

@@ -11,7 +11,7 @@ class StoredEnergy(Component):
     stored = State("J", "Energy at the start.")
     lifted = State("N", "Weight at the start.")
 
-    value = Metric("m", "Energy at the start over the weight; 0 without gravity.")
+    value = Metric("m", "Energy at the start over the weight; nan without gravity.")
     energy_at_start = Metric("J", "Energy at the start.")
 
     @staticmethod

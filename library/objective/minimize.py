@@ -6,7 +6,7 @@ class Minimize(Component):
 
     scale = Parameter("*", "Metric value that corresponds to a cost of 1.", default=1, source="definition: SI")
     value = Input("*", "The metric.")
-    cost = Output("1", "The metric.")
+    cost = Output("1", "The metric over `scale`; by default its number in SI.")
 
     @staticmethod
     def output(p, u, x, y):

@@ -13,7 +13,7 @@ class WeightedSum(Component):
         "1", "Sum that corresponds to a cost of 1.", default=1, bounds=(1e-9, 1e9), source="definition: unscaled"
     )
     terms = Input("1", "The costs of its terms.", sums=True)
-    cost = Output("1", "Their sum.")
+    cost = Output("1", "Their sum over `scale`.")
 
     @staticmethod
     def output(p, u, x, y):
