@@ -53,6 +53,7 @@ class Parameter:
         default: Its value if the spec sets none; without a default, a spec must set it.
         bounds: The range in which it makes sense.
         source: A key of the library's `references.bib`, or "definition: why".
+        whole: Whether it is a whole number, such as a count or a seed. It can neither be tuned nor set by a signal.
     """
 
     unit: str
@@ -60,6 +61,7 @@ class Parameter:
     default: float | None = None
     bounds: tuple[float, float] | None = None
     source: str = ""
+    whole: bool = False
 
 
 @dataclass(frozen=True)

@@ -27,6 +27,8 @@ def obstacle(component: Primitive, name: str, common: Collection[str] = ()) -> s
     """
     if name in common or component.kind == "measure":
         return f"figures and metrics rely on the number {name} of a {component.kind}"
+    if component.parameters[name].whole:
+        return f"{name} is a whole number, such as a count"
     functions = class_functions(parse(component.text, component.display_path))
     for word, function in functions.items():
         reads = list(_reads(function, name))

@@ -17,6 +17,7 @@ from gaitsim.units import parse_unit, with_unit
 
 Names = dict[str, tuple[int, str]]
 SIGNAL = -1  # in place of the index of a number: the parameter is set by a signal
+_FIXED = "a whole number cannot be tuned, because a search tries all that lies between; give it one value"
 _SPEC = "spec"  # the source of numbers that a spec sets without one
 
 
@@ -71,13 +72,16 @@ class NumberTable:
         return self.index[address]
 
     def check_computed(self) -> None:
-        """Check that every expression has a value at the start, within its bounds."""
+        """Check that every expression has a value at the start, within its bounds, and that whole numbers are fixed."""
         values: list[float] = []
         for i, each in enumerate(self.numbers):
             values.append(each.value)
             if each.expression is None:
                 continue
             declared, node = self._computed[i]
+            if declared.whole and self._tunes(i):
+                self.faults.add(f"{quoted(node)} depends on a tuned value, and {_FIXED}.", node.mark, each.address)
+                return
             try:
                 values[i] = each.expression.value(values)
                 if not math.isfinite(values[i]):
@@ -87,11 +91,17 @@ class NumberTable:
                 rule = f"{each.expression.text} has no value here ({reason}); correct it, or the numbers in it."
                 self.faults.add(rule, node.mark, each.address)
                 return
-            self._within(values[i], declared, node, each.address)
+            self._allowed(values[i], declared, node, each.address)
 
     def free(self) -> tuple[Free, ...]:
         """The tuned numbers, in the order of the spec."""
         return tuple(self._free.values())
+
+    def _tunes(self, index: int) -> bool:
+        """Whether a search changes a number."""
+        each = self.numbers[index]
+        read = [other for _, other in each.expression.names] if each.expression else []
+        return each.free is not None or any(self._tunes(other) for other in read if other != SIGNAL)
 
     def _number(
         self,
@@ -126,7 +136,7 @@ class NumberTable:
         value = number(node, declared.unit, self.faults, address)
         if value is None:
             return Number(address, unit, mark=node.mark)
-        self._within(value, declared, node, address)
+        self._allowed(value, declared, node, address)
         return Number(address, unit, value, fraction_of=fraction_of, source=_SPEC, mark=node.mark)
 
     def _mapping(
@@ -152,7 +162,7 @@ class NumberTable:
                 return replace(made, source=origin)
             value = number(value_node, declared.unit, self.faults, address)
             if value is not None:
-                self._within(value, declared, value_node, address)
+                self._allowed(value, declared, value_node, address)
         elif declared.default is not None:
             value = _default(declared)
         if "tune" not in node.entries:
@@ -172,7 +182,9 @@ class NumberTable:
         fraction_of: int | None,
     ) -> Number:
         unit, bounds = parse_unit(declared.unit), self._bounds(node.entries["tune"], declared, address)
-        if bounds is None:
+        if declared.whole:
+            self.faults.add(f"{_FIXED}.", node.mark, address)
+        if bounds is None or declared.whole:
             return Number(address, unit, mark=node.mark)
         low, high = bounds
         start = (low + high) / 2 if value is None else value
@@ -206,7 +218,7 @@ class NumberTable:
         if low is None or high is None:
             return None
         for bound, item in ((low, node.items[0]), (high, node.items[1])):
-            self._within(bound, declared, item, address)
+            self._allowed(bound, declared, item, address)
         if low >= high:
             word, move = ("reversed", "exchange them") if low > high else ("equal", "write a lower and a higher one")
             rule = f"the bounds {quoted(node.items[0])} and {quoted(node.items[1])} are {word}; {move}."
@@ -214,19 +226,24 @@ class NumberTable:
             return None
         return low, high
 
-    def _within(self, value: float, declared: Parameter, node: Node, address: str) -> None:
-        if declared.bounds is None:
-            return
+    def _allowed(self, value: float, declared: Parameter, node: Node, address: str) -> None:
+        """Check that a value lies within its bounds, and that it is whole if it has to be."""
         unit = parse_unit(declared.unit)
-        low, high = declared.bounds
+        low, high = declared.bounds or (-math.inf, math.inf)
         given = unit.of(value)
-        if not low - 1e-12 * abs(low) <= given <= high + 1e-12 * abs(high):
-            shown = unit.shown(value)
-            value_text = quoted(node) if isinstance(node, ScalarNode) else f'"{shown}"'
-            if value_text != f'"{shown}"':
-                value_text += f" is {shown}, which"
-            rule = f"{value_text} is outside {unit.span(unit.to_si(low), unit.to_si(high))}"
-            self.faults.add(f"{rule}; choose a value between.", node.mark, address)
+        outside = not low - 1e-12 * abs(low) <= given <= high + 1e-12 * abs(high)
+        if not outside and not (declared.whole and given % 1):
+            return
+        shown = unit.shown(value)
+        value_text = quoted(node) if isinstance(node, ScalarNode) else f'"{shown}"'
+        if value_text != f'"{shown}"':
+            value_text += f" is {shown}, which"
+        if outside:
+            rule = f"{value_text} is outside {unit.span(unit.to_si(low), unit.to_si(high))}; choose a value between."
+        else:
+            nearer = max(low, min(high, round(given)))
+            rule = f"{value_text} is not a whole number; write such as {unit.shown(unit.to_si(nearer))}."
+        self.faults.add(rule, node.mark, address)
 
 
 def _default(declared: Parameter) -> float:

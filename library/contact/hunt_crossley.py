@@ -22,6 +22,7 @@ class HuntCrossley(Component):
         default=0,
         bounds=(0, 1),
         source="definition: the original law",
+        whole=True,
     )
     radius = Parameter(
         "m",

@@ -17,6 +17,7 @@ class JointReflex(Component):
         default=1,
         bounds=(-1, 1),
         source="geyer2010, angles that grow in extension",
+        whole=True,
     )
     angle = Input("rad", "Angle of the joint.")
     angular_velocity = Input("rad/s", "Its rate.")

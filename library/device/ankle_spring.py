@@ -27,6 +27,7 @@ class AnkleSpring(Component):
         default=1,
         bounds=(-1, 1),
         source="definition: plantarflexion adds to the ankle's angle in geyer2010",
+        whole=True,
     )
     joint = Link(
         "The joint that the device spans; replaces angle: and to:.",

@@ -16,6 +16,7 @@ class VariableDamper(Component):
         default=0,
         bounds=(-1, 1),
         source="definition: a plain damper",
+        whole=True,
     )
     joint = Link(
         "The joint that the device spans; replaces angular_velocity: and to:.",

@@ -10,7 +10,7 @@ class RimlessWheel(Component):
     an inertia I about the hub, the rate is multiplied by (I + m l^2 cos 2a) / (I + m l^2).
     """
 
-    spokes = Parameter("1", "Number of spokes.", bounds=(3, 100))
+    spokes = Parameter("1", "Number of spokes.", bounds=(3, 100), whole=True)
     length = Parameter("m", "Length of a spoke l.", bounds=(1e-3, 10))
     mass = Parameter("kg", "Mass m.", bounds=(1e-6, 1000))
     inertia = Parameter("kg m^2", "Moment of inertia I about the hub.", bounds=(0, 1000))

@@ -39,6 +39,7 @@ class Prescribed(Component):
         default=1,
         bounds=(-1, 1),
         source="definition: as is",
+        whole=True,
     )
     armature = Parameter(
         "kg m^2", "Inertia of the drive.", default=1e7, bounds=(1, 1e12), source="definition: beyond any segment's"

@@ -10,7 +10,12 @@ class Apex(Component):
         "m", "Height that counts as zero.", default=0, bounds=(-100, 100), source="definition: the ground"
     )
     average = Parameter(
-        "1", "Number of most recent apexes that are averaged.", default=3, bounds=(1, 16), source="thesis: last three"
+        "1",
+        "Number of most recent apexes that are averaged.",
+        default=3,
+        bounds=(1, 16),
+        source="thesis: last three",
+        whole=True,
     )
     height = Input("m", "Height whose apexes are measured.")
     airborne = Input("1", "1 where an apex may be, 0 in contact.", default=1)

@@ -7,7 +7,12 @@ class ContactTime(Component):
     """Duration of contacts."""
 
     average = Parameter(
-        "1", "Number of most recent contacts that are averaged.", default=3, bounds=(1, 16), source="thesis: last three"
+        "1",
+        "Number of most recent contacts that are averaged.",
+        default=3,
+        bounds=(1, 16),
+        source="thesis: last three",
+        whole=True,
     )
     contact = Input("1", "1 in contact, else 0.")
 

@@ -7,7 +7,12 @@ class Frequency(Component):
     """Frequency at which a signal switches on, such as touchdowns per second."""
 
     average = Parameter(
-        "1", "Number of most recent periods that are averaged.", default=3, bounds=(1, 15), source="thesis: last three"
+        "1",
+        "Number of most recent periods that are averaged.",
+        default=3,
+        bounds=(1, 15),
+        source="thesis: last three",
+        whole=True,
     )
     signal = Input("1", "0 or 1; an event is its rise.")
 

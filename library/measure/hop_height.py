@@ -17,6 +17,7 @@ class HopHeight(Component):
         default=3,
         bounds=(1, 16),
         source="definition: enough to show a trend",
+        whole=True,
     )
     least_height = Parameter(
         "m",

@@ -10,10 +10,20 @@ class MeanSquare(Component):
         "*", "Scale: the value is divided by this.", default=1, bounds=(1e-12, 1e12), source="definition: SI"
     )
     positive = Parameter(
-        "1", "1 includes the positive part, 0 excludes it.", default=1, bounds=(0, 1), source="definition: included"
+        "1",
+        "1 includes the positive part, 0 excludes it.",
+        default=1,
+        bounds=(0, 1),
+        source="definition: included",
+        whole=True,
     )
     negative = Parameter(
-        "1", "1 includes the negative part, 0 excludes it.", default=1, bounds=(0, 1), source="definition: included"
+        "1",
+        "1 includes the negative part, 0 excludes it.",
+        default=1,
+        bounds=(0, 1),
+        source="definition: included",
+        whole=True,
     )
     settle = Parameter(
         "s", "Samples before this time are ignored.", default=0, bounds=(0, 1e3), source="definition: the whole run"

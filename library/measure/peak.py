@@ -7,7 +7,12 @@ class Peak(Component):
     """The largest value of a signal in each contact (or over the whole run without a gate)."""
 
     average = Parameter(
-        "1", "Number of most recent peaks that are averaged.", default=3, bounds=(1, 16), source="thesis: last three"
+        "1",
+        "Number of most recent peaks that are averaged.",
+        default=3,
+        bounds=(1, 16),
+        source="thesis: last three",
+        whole=True,
     )
     signal = Input("*", "Any signal.")
     gate = Input("1", "1 while peaks are measured; a peak ends when the gate falls to 0.", default=1)

@@ -11,7 +11,7 @@ class Section(Component):
     """
 
     direction = Parameter(
-        "1", "1 for rising crossings, -1 for falling ones.", default=1, bounds=(-1, 1), source="definition"
+        "1", "1 for rising crossings, -1 for falling ones.", default=1, bounds=(-1, 1), source="definition", whole=True
     )
     stop_after = Parameter(
         "1",
@@ -19,6 +19,7 @@ class Section(Component):
         default=0,
         bounds=(0, 1e9),
         source="definition: never",
+        whole=True,
     )
     signal = Input("*", "Signal that is recorded at the crossing.")
     crossing = Input("*", "Continuous signal whose zero crossings define the section.")

@@ -9,7 +9,12 @@ class Hop(Component):
     """
 
     required_hops = Parameter(
-        "1", "Fewer hops are a failure.", default=5, bounds=(1, 100), source="definition: five show whether hops recur"
+        "1",
+        "Fewer hops are a failure.",
+        default=5,
+        bounds=(1, 100),
+        source="definition: five show whether hops recur",
+        whole=True,
     )
     largest_spread = Parameter(
         "m", "Apexes that differ by more are a failure.", default=0.01, bounds=(1e-6, 1), source="definition: 1 cm"

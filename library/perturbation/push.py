@@ -31,6 +31,7 @@ class Push(Component):
         default=0,
         bounds=(0, 1e6),
         source="definition: a push at a given time",
+        whole=True,
     )
     event = Input("1", "1 in the instant of an event, such as touchdown.", default=0)
     events = State("1", "Number of events so far.")

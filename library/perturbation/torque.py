@@ -21,6 +21,7 @@ class Torque(Component):
         default=0,
         bounds=(0, 1e6),
         source="definition: a moment at a given time",
+        whole=True,
     )
     event = Input("1", "1 in the instant of an event, such as touchdown.", default=0)
     events = State("1", "Number of events so far.")

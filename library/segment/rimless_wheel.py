@@ -8,7 +8,7 @@ class RimlessWheel(Component):
 
     mass = Parameter("kg", "Mass, at the hub.", bounds=(1e-6, 1000))
     inertia = Parameter("kg m^2", "Moment of inertia about the hub.", bounds=(0, 1000))
-    spokes = Parameter("1", "Number of spokes.", bounds=(3, 100))
+    spokes = Parameter("1", "Number of spokes.", bounds=(3, 100), whole=True)
     length = Parameter("m", "Length of a spoke.", bounds=(1e-3, 10))
     foot = Frame("The end of the standing spoke, the origin.")
     hub = Frame("The hub.")

@@ -69,10 +69,11 @@ class Noise(Component):
     )
     seed = Parameter(
         "1",
-        "Seed, a whole number.",
+        "Seed of the noise.",
         default=1,
         bounds=(0, 67108858),
         source="definition: any seed",
+        whole=True,
     )
     signal = Input("*", "Any signal.")
     generator = State("1", "State of the random numbers.", size=6)

@@ -85,9 +85,7 @@ class Rough(Component):
         bounds=(-1000, 1000),
         source="definition: a start on level ground",
     )
-    seed = Parameter(
-        "1", "Seed of the heights, a whole number.", default=1, bounds=(0, 1e6), source="definition: any seed"
-    )
+    seed = Parameter("1", "Seed of the heights.", default=1, bounds=(0, 1e6), source="definition: any seed", whole=True)
     position = Input("m", "Position along the ground.", default=0)
     side_position = Input("m", "Position to the left.", default=0)
     height = Output("m", "Height of the ground there.")
@@ -105,9 +103,8 @@ class Rough(Component):
 
     @staticmethod
     def output(p, u, x, y):
-        whole = p.seed // 1
         y.height, y.gradient, y.side_gradient = surface(
-            p.amplitude, p.cell, p.first, whole, u.position, u.side_position
+            p.amplitude, p.cell, p.first, p.seed, u.position, u.side_position
         )
         y.slope = math.atan(y.gradient)
 
@@ -117,4 +114,4 @@ class Rough(Component):
         if steepest > STEEPEST:
             rule = f"its slope can reach {steepest:.3g}, and contacts are accurate up to a slope of {STEEPEST:g}"
             raise Refused(f"{rule}; for this amplitude, make cell at least {3 * p.amplitude:.3g} m")
-        mj.ground(relief=(surface, (p.amplitude, p.cell, p.first, p.seed // 1)))
+        mj.ground(relief=(surface, (p.amplitude, p.cell, p.first, p.seed)))

@@ -19,7 +19,7 @@ class Steps(Component):
     run = Parameter(
         "m", "Depth of a step, from edge to edge.", default=1, bounds=(0.01, 1000), source="definition: a choice"
     )
-    count = Parameter("1", "Number of steps.", default=1, bounds=(1, 100), source="definition: one step")
+    count = Parameter("1", "Number of steps.", default=1, bounds=(1, 100), source="definition: one step", whole=True)
     angle = Parameter(
         "deg",
         "Slope of the ground in the forward direction between edges; negative for downhill.",
@@ -37,7 +37,7 @@ class Steps(Component):
     @staticmethod
     def output(p, u, x, y):
         climbed = whole((u.position - p.first) / p.run) + 1
-        y.height = p.rise * min(whole(p.count), max(0.0, climbed))
+        y.height = p.rise * min(p.count, max(0.0, climbed))
         y.slope = p.angle
         y.gradient = 0.0
         y.side_gradient = 0.0

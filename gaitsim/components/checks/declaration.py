@@ -97,7 +97,7 @@ _FIELDS = {
 }
 _FIELDS |= {"possible": _FIELDS["usual"]}
 _FIELDS |= {"sends": _FIELDS["reads"], "gives": _FIELDS["reads"], "optional": _FIELDS["sums"]}
-_FIELDS |= {"listed": _FIELDS["sums"]}
+_FIELDS |= {"listed": _FIELDS["sums"], "whole": _FIELDS["sums"]}
 
 
 def field_faults(name: str, one: Declaration) -> Iterator[str]:
@@ -118,6 +118,8 @@ def field_faults(name: str, one: Declaration) -> Iterator[str]:
         else:
             if isinstance(one, StepLimit) and unit.dimension != parse_unit("s").dimension:
                 yield f'{name}: {one.unit} is not a unit of time; write such as StepLimit("ms", "...", 0.5).'
+    if isinstance(one, Parameter) and one.whole and one.default is not None and one.default % 1:
+        yield f"{name}: default {one.default} is not a whole number, and whole=True says so."
     if isinstance(one, Parameter) and one.bounds is not None:
         low, high = one.bounds
         if low > high:
