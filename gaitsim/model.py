@@ -124,12 +124,14 @@ class Group:
 
     Attributes:
         before: The index of the first part that was made after it.
+        file: The name of its file as messages show it.
     """
 
     address: str
     reference: str
     before: int
     mark: Mark
+    file: str = ""
 
 
 @dataclass(frozen=True)
@@ -283,6 +285,14 @@ class Model:
         for number, varies in zip(self.numbers, self.varying, strict=True):
             values.append(math.nan if varies else _value(number, values, ()))
         return tuple(values)
+
+    def place(self, part: Part) -> Mark:
+        """Where a spec chose a part. A part that the file of a composite chose has the place of the composite."""
+        around = [group for group in self.groups if part.address.startswith(f"{group.address}.")]
+        files = {group.file for group in around}
+        return next(
+            (mark for mark in (part.mark, *(g.mark for g in reversed(around))) if mark.file not in files), part.mark
+        )
 
     @property
     def metrics(self) -> dict[str, str]:

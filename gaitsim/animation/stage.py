@@ -128,7 +128,7 @@ def _coordinates(model: Model, assembly: Assembly, mechanics: Any) -> tuple[tupl
             part = next((p for p in model.parts if address == p.address or address.startswith(f"{p.address}.")), None)
             rule = "no output reports this joint's coordinate, so its motion was not recorded"
             move = 'declare an output and mj.read("angle", joint, "qpos") in its component\'s build'
-            raise CannotAnimate(Fault(f"{rule}; {move}.", part.mark if part else None, address))
+            raise CannotAnimate(Fault(f"{rule}; {move}.", model.place(part) if part else None, address))
     return tuple(sorted(found.items()))
 
 

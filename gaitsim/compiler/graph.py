@@ -137,7 +137,7 @@ def _loop(model: Model, needs: dict[Port, set[Port]], waiting: dict[int, set[str
     loop = " -> ".join(f"{model.parts[part].address}.{output}" for part, output in ring)
     first = model.parts[ring[0][0]]
     message = f"a loop without a state or a delay: {loop}; give one of these connections a delay."
-    return Fault(message, first.mark, first.address)
+    return Fault(message, model.place(first), first.address)
 
 
 def _port(text: str, index: dict[str, int]) -> Port:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -130,7 +130,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
         try:
             function_of(part.type.cls, "build")(p, mechanics)
         except Refused as error:
-            raise InvalidSpec(Fault(f"{error}.", part.mark, part.address)) from error
+            raise InvalidSpec(Fault(f"{error}.", model.place(part), part.address)) from error
         except Exception as error:
             raise InvalidComponent(raised(part.type, "build", part.address, error)) from error
 
@@ -144,7 +144,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
         body.pos = [a - b for a, b in zip(parent.position, child.position, strict=True)]
         for joint in branch.joints:
             build(joint)
-        check_axes(branch, body)
+        check_axes(model, branch, body)
     done = {part.address for branch in order for part in (branch.segment, *branch.joints)}
     for part in model.parts:
         if "build" in part.type.functions and part.address not in done:
@@ -155,7 +155,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
     check_friction(model, spec, made)
     check_grounds(model, made)
     check_loads(model, values, made)
-    compiled = _compiled(spec, {str(part.mark): part for part in model.parts})
+    compiled = _compiled(spec, model)
     spec.option.integrator = compiled.opt.integrator = _integrator(model, compiled)
     compiled.opt.disableflags |= _unused_stages(compiled)
     return Assembly(
@@ -186,10 +186,10 @@ def _integrator(model: Model, compiled: Any) -> Any:
     guarded = next((part for part in model.parts if part.guarded), None)
     if guarded and chosen not in ("automatic", "rk4"):
         rule = f"its events are located by Runge-Kutta steps, not by integrator: {chosen}; choose automatic"
-        raise InvalidSpec(Fault(f"{rule}.", guarded.mark, guarded.address))
+        raise InvalidSpec(Fault(f"{rule}.", model.place(guarded), guarded.address))
     if (chosen == "rk4" or guarded) and damped.size:
         address = compiled.actuator(int(damped[0])).name.rpartition(".")[0]
-        mark = next(part.mark for part in model.parts if part.address == address)
+        mark = next(model.place(part) for part in model.parts if part.address == address)
         rule = "its velocity terms need an implicit scheme, and integrator: rk4 is explicit; choose automatic."
         if guarded:
             rule = f"its velocity terms need an implicit scheme, and the events of {guarded.address} explicit steps"
@@ -264,14 +264,14 @@ def tie_place(model: Any, tie: Tie) -> int:
     return int(first) * _NUMBERS.get(tie.field, 1) + tie.index
 
 
-def _compiled(spec: Any, parts: Mapping[str, Part]) -> Any:
+def _compiled(spec: Any, model: Model) -> Any:
     """Compile MuJoCo's model. An error of MuJoCo is reported at the part whose place it names (`info`)."""
     try:
         return spec.compile()
     except ValueError as error:
         text = " ".join(str(error).split())
-        part = next((part for mark, part in parts.items() if text.endswith(f" {mark}")), None)
+        part = next((part for part in model.parts if text.endswith(f" {part.mark}")), None)
         reason = re.sub(r"[ ,]*Element name .*$", "", text.removeprefix("Error: "))
         reason = re.sub(r"^\w+ '.*?' \(id = \d+\): ", "", reason)
         rule = f"MuJoCo refuses this: {reason}; correct its numbers, or what its component builds."
-        raise InvalidSpec(Fault(rule, part.mark, part.address) if part else Fault(rule)) from error
+        raise InvalidSpec(Fault(rule, model.place(part), part.address) if part else Fault(rule)) from error

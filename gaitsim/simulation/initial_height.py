@@ -28,12 +28,17 @@ def stand(model: Any, data: Any, lift: int, touching: tuple[Touching, ...], reli
     Raises:
         SimulationFailed: There is no place, or no ground below one.
     """
-    mujoco.mj_kinematics(model, data)
-    gaps = [_gap(model, data, place, relief) for place in touching]
+    gaps = heights(model, data, touching, relief)
     if not gaps or not np.all(np.isfinite(gaps)):
         rule = "the initial pose cannot be placed on the ground: no part of it touches the ground"
         raise SimulationFailed(f"{rule}; add a contact, or set the height in initial:")
     data.qpos[lift] -= min(gaps)
+
+
+def heights(model: Any, data: Any, touching: tuple[Touching, ...], relief: Relief | None = None) -> list[float]:
+    """The heights of places above the ground in m; nan without ground below. Arguments are those of `stand`."""
+    mujoco.mj_kinematics(model, data)
+    return [_gap(model, data, place, relief) for place in touching]
 
 
 def _gap(model: Any, data: Any, place: Touching, relief: Relief | None) -> float:

@@ -81,7 +81,7 @@ class Ground:
             rule = f"load is {lift.load:g}, which the ground carries at no height at the start"
             found = f"{shown:g} cm below the first touch it carries {lift.load + rest:.3g}"
             move = "change load, or the posture and the velocities in initial:"
-            raise InvalidSpec(Fault(f"{rule}: {found}; {move}.", part.mark, part.address))
+            raise InvalidSpec(Fault(f"{rule}: {found}; {move}.", program.model.place(part), part.address))
 
     def _load(self, base: Floats, before: Sequence[float], states: Mapping[int, float]) -> float:
         """What the ground carries at the present coordinates, in body weights."""

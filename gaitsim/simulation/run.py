@@ -19,6 +19,7 @@ from gaitsim.model import TERMS, Model, Objective, Part, metric_names, recorded_
 from gaitsim.simulation.failure import raised_in
 from gaitsim.simulation.loop_result import LoopResult
 from gaitsim.simulation.outcome import Outcome, Trajectory
+from gaitsim.simulation.physics import Physics
 from gaitsim.simulation.python_loop import PythonLoop
 from gaitsim.simulation.view import views
 from gaitsim.units import parse_unit
@@ -95,6 +96,12 @@ class Simulator:
         trajectory = self._trajectory(ending.record) if ending.record is not None else None
         wall = time.perf_counter() - began
         return Outcome(status, reason, ending.steps, simulate.step, metrics, score, wall, trajectory, level)
+
+    def posed(self) -> Physics:
+        """The mechanics in the initial pose of the model's own numbers."""
+        physics: Physics = self._loop.physics
+        physics.pose(self.model.values())
+        return physics
 
     def first_instant(self) -> dict[str, float]:
         """Every recorded signal at the first instant, at the model's own numbers, in SI; empty if the run fails

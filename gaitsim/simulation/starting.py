@@ -9,6 +9,8 @@ from gaitsim.component import End
 from gaitsim.components.checks.start_range import Ranged, end_in_si, units_of
 from gaitsim.errors import Fault
 from gaitsim.model import Model, Part
+from gaitsim.simulation.initial_axes import singular_axes
+from gaitsim.simulation.initial_depth import Sunk
 from gaitsim.simulation.run import Simulator
 from gaitsim.units import parse_unit
 
@@ -27,19 +29,29 @@ def start_findings(simulator: Simulator) -> StartFindings:
     for connection in model.connections:
         if connection.sender in signals:
             signals[connection.target] = signals.get(connection.target, 0.0) + signals[connection.sender]
-    values = model.values()
-    unusual, impossible = list[Fault](), list[Fault]()
-    for part in model.parts:
-        numbers = {name: values[index] for name, index in part.numbers.items()}
+    physics = simulator.posed()
+    sunk = Sunk(model, physics)
+    values, starts = model.values(), list[_Start]()
+    for index, part in enumerate(model.parts):
+        numbers = {name: values[number] for name, number in part.numbers.items()}
         for name, declared in _ranged(part):
             address = f"{part.address}.{name}"
             if address in signals:
-                start = _Start(model, part, address, declared, signals[address], numbers)
-                if start.beyond(declared.possible):
-                    impossible.append(start.fault)
-                elif start.beyond(declared.usual):
-                    unusual.append(start.fault)
-    return StartFindings(tuple(unusual), tuple(impossible))
+                depth = sunk if index in sunk.contacts else None
+                start = _Start(model, part, address, declared, signals[address], numbers, depth)
+                if start.beyond(declared.possible) or start.beyond(declared.usual):
+                    starts.append(start)
+    starts = _without_repetition(starts)
+    impossible = [start.fault for start in starts if start.beyond(start.declared.possible)]
+    unusual = [start.fault for start in starts if not start.beyond(start.declared.possible)]
+    return StartFindings(tuple(unusual), (*impossible, *singular_axes(model, physics)))
+
+
+def _without_repetition(starts: list[_Start]) -> list[_Start]:
+    """The starts without those of contacts that one coordinate puts into the ground, but for the lowest of them."""
+    below = [start for start in starts if start.sunk and start.sunk.move]
+    lowest = min(below, key=lambda start: (not start.address.endswith(".height"), start.value), default=None)
+    return [start for start in starts if start is lowest or start not in below]
 
 
 def _ranged(part: Part) -> Iterator[tuple[str, Ranged]]:
@@ -60,6 +72,7 @@ class _Start:
     declared: Ranged
     value: float
     numbers: Mapping[str, float]
+    sunk: Sunk | None  # for a contact of a model that starts below the ground
 
     def beyond(self, ends: tuple[End, End] | None) -> tuple[End, str] | None:
         """The end of a range that the value exceeds by more than rounding, and which end it is; None if it lies
@@ -82,8 +95,11 @@ class _Start:
                 origin = f" ({end})" if isinstance(end, str) else ""
                 clauses.append(f"{word} is {self._with_unit(self._si(end))}{origin} at {side}")
         initial = self.model.initial.get(self.address)
-        mark = self.part.mark if initial is None else self.model.numbers[initial].mark
-        return Fault(f"{', '.join(clauses)}; change initial:, or the numbers of this part.", mark, self.address)
+        mark = self.model.place(self.part) if initial is None else self.model.numbers[initial].mark
+        move = "change initial:, or the numbers of this part"
+        if self.sunk and self.sunk.move:
+            move, mark = self.sunk.move, self.sunk.mark or mark
+        return Fault(f"{', '.join(clauses)}; {move}.", mark, self.address)
 
     def _si(self, end: End) -> float:
         return end_in_si(end, self.declared.unit, units_of(self.part.type.parameters), self.numbers)

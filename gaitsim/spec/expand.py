@@ -178,7 +178,7 @@ class Expansion:
             self.broken.add(where.address)
             return
         address = where.address
-        self.groups.append(Group(address, found.reference, len(self.parts), where.mark))
+        self.groups.append(Group(address, found.reference, len(self.parts), where.mark, found.document.mark.file))
         inside = Scope(address, where.logical, found.document.mark.file, {}, found.reference, outer=where.scope)
         for name, declared in found.parameters.items():
             given = node.entries.get(name, found.defaults.get(name))

@@ -78,7 +78,7 @@ def checked(opening: Opening, convergence: bool, listener: Listener) -> Soundnes
     for notice in notices:
         listener.say(notice)
     arms = moment_arms(models[0])
-    unusual = [*starts.unusual, *warnings(arms), *_unknown_sources(models[0], opened.library)]
+    unusual = [*starts.unusual, *warnings(models[0], arms), *_unknown_sources(models[0], opened.library)]
     for one in unusual:
         listener.say(f"warning: {one}")
     with listener.waiting("simulating"):

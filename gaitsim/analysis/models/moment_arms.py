@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from gaitsim.errors import Fault
+from gaitsim.model import Model
 from gaitsim.simulation.moment_arms import MomentArm
 
 
-def warnings(arms: Sequence[MomentArm]) -> list[Fault]:
+def warnings(model: Model, arms: Sequence[MomentArm]) -> list[Fault]:
     """Moment arms that change their sign within the range of the hinge, and paths that slip."""
     found = []
     for arm in arms:
@@ -23,10 +24,12 @@ def warnings(arms: Sequence[MomentArm]) -> list[Fault]:
             places = _degrees(arm.turns)
             rule = f"the moment arm over {arm.hinge.address} changes sign at {places} (range: {over})"
             move = "beyond it the path pulls the other way; wrap it around the joint, move its points or its side"
-            found.append(Fault(f"{rule}; {move}.", arm.path.mark, arm.path.address))
+            found.append(Fault(f"{rule}; {move}.", model.place(arm.path), arm.path.address))
         elif arm.points and arm.jumps:
             rule = f"the length jumps at {_degrees(arm.jumps)} of {arm.hinge.address} (range: {over})"
-            found.append(Fault(f"{rule}; move the cylinder's side or the points.", arm.path.mark, arm.path.address))
+            found.append(
+                Fault(f"{rule}; move the cylinder's side or the points.", model.place(arm.path), arm.path.address)
+            )
     return found
 
 

@@ -29,7 +29,7 @@ def check_friction(model: Model, spec: Any, made: Made) -> None:
                 part = model.parts[index]
                 rule = f"{part.type.reference} has no friction sideways, and {joint} lets it move there"
                 move = "choose a contact for space, such as contact/spatial_hunt_crossley"
-                faults.add(f"{rule}; {move}.", part.mark, part.address)
+                faults.add(f"{rule}; {move}.", model.place(part), part.address)
     faults.raise_if_any()
 
 
@@ -43,10 +43,10 @@ def check_inertias(model: Model, spec: Any, made: Made) -> None:
     for part in (model.parts[index] for index in made.planar):
         joint = _out_of_plane(spec.body(part.address), slides=False)
         if joint:
-            rule = (
-                f"{part.type.reference} has one inertia, about its transverse axis, and {joint} turns it about others"
-            )
-            faults.add(f"{rule}; choose segment/spatial.", part.mark, part.address)
+            what, mark = part.type.reference, model.place(part)
+            rule = f"{what} has one inertia, about its transverse axis, and {joint} turns it about others"
+            chosen = next((group.reference for group in model.groups if group.mark == mark), what)
+            faults.add(f"{rule}; choose segment/spatial in place of {chosen}.", mark, part.address)
     faults.raise_if_any()
 
 
@@ -62,7 +62,7 @@ def check_grounds(model: Model, made: Made) -> None:
     if made.reliefs and (len(set(made.reliefs.values())) > 1 or {part.address for part in grounds} - uneven):
         part = next((part for part in grounds if part.address not in uneven), grounds[-1])
         rule = "a model has one ground, and another contact has a different one; write one for all"
-        faults.add(f"{rule}: use_for: {{terrain: {{use: terrain/rough}}}}.", part.mark, part.address)
+        faults.add(f"{rule}: use_for: {{terrain: {{use: terrain/rough}}}}.", model.place(part), part.address)
     faults.raise_if_any()
 
 
@@ -83,7 +83,7 @@ def check_sides(model: Model, values: Sequence[float]) -> None:
                         f"{name} has a place on {owner}, which is the mirror of a right one, but is itself not mirrored"
                     )
                     move = "write it once, as on the right, with sides: [l, r] or sides: [l]"
-                    faults.add(f"{rule}; {move}.", part.mark, part.address)
+                    faults.add(f"{rule}; {move}.", model.place(part), part.address)
                     break
     faults.raise_if_any()
 

@@ -33,7 +33,7 @@ def check_loads(model: Model, values: Sequence[float], made: Made) -> None:
             faults.add(rule, model.numbers[index].mark, address)
         if not made.carried:
             rule = f"load is {lift.load:g}, but no part touches the ground; add a contact, or remove load."
-            faults.add(rule, part.mark, part.address)
+            faults.add(rule, model.place(part), part.address)
         if made.collided:
             contact = model.parts[made.collided[0]]
             rule = f"load is {lift.load:g}, but the force of {contact.address} ({contact.type.reference}) follows from "
@@ -41,7 +41,7 @@ def check_loads(model: Model, values: Sequence[float], made: Made) -> None:
             move = (
                 "choose a contact with a law of its own, such as contact/hunt_crossley, or set the height in initial:"
             )
-            faults.add(f"{rule}; {move}.", part.mark, part.address)
+            faults.add(f"{rule}; {move}.", model.place(part), part.address)
     faults.raise_if_any()
 
 

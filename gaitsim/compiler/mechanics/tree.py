@@ -12,7 +12,7 @@ import numpy as np
 from gaitsim.errors import Fault, Faults, InvalidSpec
 from gaitsim.model import WORLD, Model, Part
 
-_FLAT = 0.02  # volume of three unit axes below which they are dependent, such as axes within 1 deg of one plane
+FLAT = 0.02  # smallest singular value of unit axes below which they are dependent: within 2 deg of one plane
 
 
 @dataclass(frozen=True)
@@ -37,12 +37,12 @@ def branches(model: Model, values: Sequence[float]) -> list[Branch]:
         child = _owner(joint.attachments["child"], segments)
         above = carried.setdefault(child, [])
         if child == WORLD:
-            faults.add("its child is the ground; exchange parent and child.", joint.mark, joint.address)
+            faults.add("its child is the ground; exchange parent and child.", model.place(joint), joint.address)
             children_of_ground.add(_owner(joint.attachments["parent"], segments))
         elif above and _ends(above[0], values) != _ends(joint, values):
             rule = f"{child} is the child of {above[0].address} and, at another place, of {joint.address}"
             move = "a segment is the child of one joint, or of several with the same parent and child"
-            faults.add(f"{rule}; {move}.", joint.mark, joint.address)
+            faults.add(f"{rule}; {move}.", model.place(joint), joint.address)
         else:
             above.append(joint)
     carried.pop(WORLD, None)
@@ -50,12 +50,12 @@ def branches(model: Model, values: Sequence[float]) -> list[Branch]:
         if address not in carried and address not in children_of_ground:
             first = next(iter(segment.type.frames))
             rule = f"no joint has this segment as its child; add one with child: {address}.{first}"
-            faults.add(f"{rule}.", segment.mark, address)
+            faults.add(f"{rule}.", model.place(segment), address)
     faults.raise_if_any()
-    return _ordered(segments, carried)
+    return _ordered(model, segments, carried)
 
 
-def _ordered(segments: dict[str, Part], carried: dict[str, list[Part]]) -> list[Branch]:
+def _ordered(model: Model, segments: dict[str, Part], carried: dict[str, list[Part]]) -> list[Branch]:
     ordered: list[Branch] = []
     placed = {WORLD}
     while len(ordered) < len(segments):
@@ -68,13 +68,13 @@ def _ordered(segments: dict[str, Part], carried: dict[str, list[Part]]) -> list[
             ring = ", ".join(address for address in segments if address not in placed)
             joint = next(joints[0] for child, joints in carried.items() if child not in placed)
             rule = f"joints connect these segments in a loop: {ring}; connect one of them to world."
-            raise InvalidSpec(Fault(rule, joint.mark, joint.address))
+            raise InvalidSpec(Fault(rule, model.place(joint), joint.address))
         ordered += ready
         placed |= {branch.segment.address for branch in ready}
     return ordered
 
 
-def check_axes(branch: Branch, body: Any) -> None:
+def check_axes(model: Model, branch: Branch, body: Any) -> None:
     """Check that the axes of a body's hinges are independent, and the axes of its slides too.
 
     Raises:
@@ -90,12 +90,12 @@ def check_axes(branch: Branch, body: Any) -> None:
                 return  # MuJoCo says so
             axes.append(np.array(made.axis) / length)
             names.append(made.name)
-            if len(axes) > 3 or np.linalg.svd(np.array(axes), compute_uv=False)[-1] < _FLAT:
+            if len(axes) > 3 or np.linalg.svd(np.array(axes), compute_uv=False)[-1] < FLAT:
                 part = parts.get(made.name) or parts[made.name.rpartition(".")[0]]
                 before = " and ".join(names[:-1])
                 rule = f"{branch.segment.address} can already {does} this axis by {before}"
                 move = "choose an axis out of their plane" if len(axes) == 3 else "choose another axis, or remove it"
-                raise InvalidSpec(Fault(f"{rule}; {move}.", part.mark, part.address))
+                raise InvalidSpec(Fault(f"{rule}; {move}.", model.place(part), part.address))
 
 
 def _owner(frame: str, segments: dict[str, Part]) -> str:
