@@ -34,7 +34,14 @@ are in SI, with angles in radians. [Design](../../design.md#the-component-contra
 _SECTIONS: Mapping[str, tuple[str, Mapping[str, str]]] = {
     "parameters": (
         "Parameters",
-        {"meaning": "doc", "default": "default", "unit": "unit", "bounds": "bounds", "source": "source"},
+        {
+            "meaning": "doc",
+            "default": "default",
+            "unit": "unit",
+            "bounds": "bounds",
+            "whole": "whole",
+            "source": "source",
+        },
     ),
     "series": ("Recorded curves and lists", {"meaning": "doc", "unit": "unit", "values": "size"}),
     "points": ("Points", {"meaning": "doc", "unit": "unit"}),
@@ -109,7 +116,7 @@ def _table(rows: Mapping[str, Mapping[str, Any]], columns: Mapping[str, str]) ->
 
 
 def _cell(field: str, value: Any) -> str:
-    if field == "sums":
+    if field in ("sums", "whole"):
         return "yes" if value else ""
     if field == "source":
         return linked(value or "", depth=FOLDER.count("/") + 1)

@@ -37,6 +37,16 @@ _VALUE = {
         },
     ]
 }
+_WHOLE = {
+    "anyOf": [
+        {"type": ["integer", "string"]},
+        {
+            "type": "object",
+            "properties": {"value": {"type": ["integer", "string"]}, "source": {"type": "string"}},
+            "additionalProperties": False,
+        },
+    ]
+}
 _STRUCTURE = {
     "sides": {"type": "array", "items": {"enum": ["l", "r"]}, "description": "One part for each side."},
     "to": {"description": "Where outputs are summed: part.input, a list, or {output: part.input}."},
@@ -54,7 +64,7 @@ def spec_schema(library: Library) -> dict[str, Any]:
     """
     schema = Header.model_json_schema()
     definitions = schema.setdefault("$defs", {})
-    definitions |= {"value": _VALUE, "connection": _CONNECTION}
+    definitions |= {"value": _VALUE, "whole": _WHOLE, "connection": _CONNECTION}
     definitions["wired"] = {"anyOf": [{"$ref": "#/$defs/connection"}, {"$ref": "#/$defs/value"}]}
     cases = []
     for reference in library.references():
@@ -83,7 +93,8 @@ def _entry(component: ComponentFile) -> dict[str, Any]:
     """The schema of an entry that uses a component."""
     properties: dict[str, Any] = {"use": {"type": "string"}, **_STRUCTURE}
     for name, parameter in component.parameters.items():
-        properties[name] = _described("wired", parameter.doc, parameter.unit, parameter.source)
+        what = "whole" if parameter.whole else "wired"
+        properties[name] = _described(what, parameter.doc, parameter.unit, parameter.source)
     for name in component.attachments:
         place = (
             "A frame, such as thigh.distal, or a place beside one, such as {on: thigh.distal, at: [1 cm, 0 m, 0 m]}."

@@ -34,6 +34,8 @@ def test_every_spec_is_valid(path: Path, validator: Any) -> None:
         ("parts: {a: {use: segment/rod, mas: 2 kg}}", "'mas' was unexpected"),
         ("parts: {a: {use: segment/rot}}", "'segment/rot' is not one of"),
         ("parts: {a: {use: segment/rod, mass: [1]}}", "[1] is not valid"),
+        ("parts: {a: {use: sensor/noise, seed: 1.5}}", "1.5 is not valid"),
+        ("parts: {a: {use: sensor/noise, seed: {tune: [1, 5]}}}", "is not valid"),
         ("part: {}\nparts: {}", "'part' was unexpected"),
     ],
 )
