@@ -159,10 +159,15 @@ def with_article(noun: str) -> str:
     return f"{'an' if noun[:1] in 'aeiou' else 'a'} {noun}"
 
 
+def listed(names: Iterable[str], last_word: str) -> str:
+    """Words in a row: x, y and z."""
+    *others, last = names
+    return f" {last_word} ".join([", ".join(others), last] if others else [last])
+
+
 def alternatives(names: Iterable[str]) -> str:
     """Words as a choice: cma, ga, pso or de."""
-    *others, last = names
-    return " or ".join([", ".join(others), last])
+    return listed(names, "or")
 
 
 def did_you_mean(word: str, known: Iterable[str]) -> str:

@@ -9,7 +9,7 @@ from functools import cached_property
 
 from gaitsim.component import Input, Output
 from gaitsim.components.primitive import Primitive
-from gaitsim.errors import Mark, SimulationFailed
+from gaitsim.errors import Fault, Mark, SimulationFailed
 from gaitsim.text.expression import Expression
 from gaitsim.units import Unit, parse_unit
 
@@ -289,10 +289,13 @@ class Model:
     def place(self, part: Part) -> Mark:
         """Where a spec chose a part. A part that the file of a composite chose has the place of the composite."""
         around = [group for group in self.groups if part.address.startswith(f"{group.address}.")]
-        files = {group.file for group in around}
-        return next(
-            (mark for mark in (part.mark, *(g.mark for g in reversed(around))) if mark.file not in files), part.mark
-        )
+        marks = (part.mark, *(group.mark for group in reversed(around)))
+        return next((mark for mark in marks if mark.file not in {group.file for group in around}), part.mark)
+
+    def fault(self, part: Part, rule: str) -> Fault:
+        """A fault of a part at its place. Of an inner part of a composite, the rule names the line there too."""
+        place = self.place(part)
+        return Fault(rule if place == part.mark else f"{rule} It is written in {part.mark}.", place, part.address)
 
     @property
     def metrics(self) -> dict[str, str]:
@@ -335,11 +338,8 @@ def metric_units(parts: Sequence[Part], connections: Sequence[Connection]) -> di
         Units by the name of the metric in the outcome.
     """
     units = {f"{p.address}.{n}": o.unit for p in parts for n, o in p.type.outputs.items()}
-    measured = {
-        c.target.rpartition(".")[0]: units[c.sender]
-        for c in reversed(connections)
-        if _input_unit(c.target, parts) == "*"
-    }
+    inputs = {f"{p.address}.{n}": i.unit for p in parts for n, i in p.type.inputs.items()}
+    measured = {c.target.rpartition(".")[0]: units[c.sender] for c in reversed(connections) if inputs[c.target] == "*"}
     found = {}
     for part in parts:
         for own, name in metric_names(part).items():
@@ -391,8 +391,3 @@ def recorded_signals(model: Model) -> tuple[Signal, ...]:
             states = {name: s for name, s in part.type.states.items() if s.size is None}
             found += [Signal(f"{place}.{name}", parse_unit(s.unit).si, s.doc, s.levels) for name, s in states.items()]
     return tuple(found)
-
-
-def _input_unit(port: str, parts: Sequence[Part]) -> str:
-    owner, _, name = port.rpartition(".")
-    return next(p.type.inputs[name].unit for p in parts if p.address == owner)

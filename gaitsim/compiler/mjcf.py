@@ -130,7 +130,7 @@ def assemble(model: Model, values: Sequence[float], dressed: bool = True) -> Ass
         try:
             function_of(part.type.cls, "build")(p, mechanics)
         except Refused as error:
-            raise InvalidSpec(Fault(f"{error}.", model.place(part), part.address)) from error
+            raise InvalidSpec(model.fault(part, f"{error}.")) from error
         except Exception as error:
             raise InvalidComponent(raised(part.type, "build", part.address, error)) from error
 
@@ -274,4 +274,4 @@ def _compiled(spec: Any, model: Model) -> Any:
         reason = re.sub(r"[ ,]*Element name .*$", "", text.removeprefix("Error: "))
         reason = re.sub(r"^\w+ '.*?' \(id = \d+\): ", "", reason)
         rule = f"MuJoCo refuses this: {reason}; correct its numbers, or what its component builds."
-        raise InvalidSpec(Fault(rule, model.place(part), part.address) if part else Fault(rule)) from error
+        raise InvalidSpec(model.fault(part, rule) if part else Fault(rule)) from error

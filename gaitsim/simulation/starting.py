@@ -9,6 +9,7 @@ from gaitsim.component import End
 from gaitsim.components.checks.start_range import Ranged, end_in_si, units_of
 from gaitsim.errors import Fault
 from gaitsim.model import Model, Part
+from gaitsim.simulation.idle import idle_perturbations
 from gaitsim.simulation.initial_axes import singular_axes
 from gaitsim.simulation.initial_depth import Sunk
 from gaitsim.simulation.run import Simulator
@@ -44,7 +45,7 @@ def start_findings(simulator: Simulator) -> StartFindings:
     starts = _without_repetition(starts)
     impossible = [start.fault for start in starts if start.beyond(start.declared.possible)]
     unusual = [start.fault for start in starts if not start.beyond(start.declared.possible)]
-    return StartFindings(tuple(unusual), (*impossible, *singular_axes(model, physics)))
+    return StartFindings((*unusual, *idle_perturbations(model)), (*impossible, *singular_axes(model, physics)))
 
 
 def _without_repetition(starts: list[_Start]) -> list[_Start]:

@@ -141,6 +141,7 @@ class Wiring:
             senders.setdefault(connection.target, []).append(connection)
         named = {wire.target for wire in self.expansion.wires} | self.expansion.ports.tried
         tried = {target for name in named for target in self._quiet_inputs(name)}
+        told: set[str] = set()
         for part in self.parts.values():
             for name, declared in part.type.inputs.items():
                 port = f"{part.address}.{name}"
@@ -154,8 +155,22 @@ class Wiring:
                     rule = f"takes one sender and has {given}: {names}; remove one, or add them in a part of their own."
                     self.faults.add(rule, mine[-1].mark, port)
                 elif not given and declared.default is None and port not in tried:
-                    rule = f"is connected to nothing; write {name}: {{from: part.output}}"
-                    self.faults.add(f"{rule} with {measured(parse_unit(declared.unit))}.", part.mark, port)
+                    shown, mark = self._open_input(port, part)
+                    if shown in told:
+                        continue
+                    told.add(shown)
+                    rule = f"is connected to nothing; write {shown.rpartition('.')[2]}: {{from: part.output}}"
+                    self.faults.add(f"{rule} with {measured(parse_unit(declared.unit))}.", mark, shown)
+
+    def _open_input(self, port: str, part: Part) -> tuple[str, Mark]:
+        """The input that a spec has to connect, and the place of its part: that of the outermost composite which has
+        the input of a part as its own.
+        """
+        for group in self.expansion.groups:
+            for name in (name for name in self.expansion.inputs if name.rpartition(".")[0] == group.address):
+                if port in self._quiet_inputs(name):
+                    return name, group.mark
+        return port, part.mark
 
     def _written(self, connection: Connection) -> str:
         line = f" (line {connection.mark.line})" if connection.mark and connection.mark.line else ""

@@ -187,7 +187,7 @@ class Expansion:
                 self._signal(name, declared, given, written_in.passed(given), inside, where)
                 continue
             if given is None:
-                self.faults.add(_needs(name, declared), where.mark, address)
+                self.faults.add(_needs(name, declared), where.chosen(node.entries["use"].mark), address)
             names = where.scope.names if name in node.entries else dict(inside.names)
             index = self.table.add(
                 f"{address}.{name}", f"{where.logical}.{name}", given, declared, names, default=name not in node.entries
@@ -262,7 +262,7 @@ class Expansion:
             if given is None and name in where.given:
                 given, names = where.given[name]
             if given is None and declared.default is None:
-                self.faults.add(_needs(name, declared), where.mark, address)
+                self.faults.add(_needs(name, declared), where.chosen(node.entries["use"].mark), address)
             numbers[name] = self.table.add(f"{address}.{name}", f"{where.logical}.{name}", given, declared, names)
         self.outputs.update({f"{address}.{name}": f"{address}.{name}" for name in found.outputs})
         self.inputs.update({f"{address}.{name}": [f"{address}.{name}"] for name in found.inputs})

@@ -134,7 +134,9 @@ class PortReader:
             frame = absolute(text, where, given.mark, self.faults) if text else None
             if frame:
                 found[name] = frame
-                self.marks[f"{where.address}.{name}"] = given.mark
+                # What a composite hands on was written where the composite is used.
+                handed = f"{where.scope.address}.{text[1:]}" if text[:1] == "=" else ""
+                self.marks[f"{where.address}.{name}"] = self.marks.get(handed, given.mark)
         return found
 
     def option(self, name: str, declared: Option, node: MappingNode, where: Where) -> str:

@@ -69,6 +69,10 @@ class Where:
     measure: bool = False
     given: Mapping[str, tuple[Node, Names]] = field(default_factory=dict)  # parameters from the part around
 
+    def chosen(self, use: Mark) -> Mark:
+        """Where its component was chosen: at the entry, or where another text says `use:` instead."""
+        return self.mark if use.file == self.mark.file else use
+
 
 def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:
     """Find the absolute address of a name.
@@ -95,6 +99,9 @@ def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:
             hint = did_you_mean(text[1:], where.scope.attachments)
             faults.add(f"{text} is not an attachment of this composite. {hint}", mark, where.address)
         return found or None
+    if "{" in text:
+        faults.add(_brace(text, where.side), mark, where.address)
+        return None
     first, _, rest = text.partition(".")
     known: list[str] = []
     here: Scope | None = where.scope
@@ -111,6 +118,13 @@ def absolute(text: str, where: Where, mark: Mark, faults: Faults) -> str | None:
         here = here.outer if mark.file != here.file else None
     faults.add(f"there is no part {first} here. {did_you_mean(first, known)}", mark, where.address)
     return None
+
+
+def _brace(text: str, side: str) -> str:
+    """The fault of a name with a brace that stands for no side."""
+    if side:
+        return f"{text} has a brace that stands for no side; write {{side}} for this side or {{other}} for the other."
+    return f"{text} stands for a side, and this part has none; write sides: [l, r] here, or name a side, such as leg_l."
 
 
 def _with_side(text: str, side: str) -> str:

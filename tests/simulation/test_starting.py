@@ -84,21 +84,84 @@ def test_what_is_unusual_is_warned_of(spec: str, setting: str, value: str, addre
                 "extensor.normalized_fiber_length": "3.689, usual is 1.6 at most, possible is 2.5 at most",
             },
         ),
-        (
-            "hopping_leg_mass",
-            "initial.guide.position",
-            "0.4 m",
-            {
-                "ground.height": "-0.4305 m, usual is -0.03 m at least, possible is -0.3 m at least",
-                "ground.load": "133.1, usual is 3 at most, possible is 20 at most",
-            },
-        ),
     ],
 )
 def test_what_is_beyond_reason_is_refused(spec: str, setting: str, value: str, expected: dict[str, str]) -> None:
     found = findings(spec, (setting, value))
     told = {fault.address: fault.message for fault in found.impossible}
     assert told == {address: f"at the start this is {said}; {MOVE}" for address, said in expected.items()}
+
+
+@pytest.mark.parametrize(
+    ("spec", "address", "value", "said", "move"),
+    [
+        (
+            "hopping_leg_mass",
+            "guide.position",
+            "0.4 m",
+            "ground.height: at the start this is -0.4305 m",
+            "raise guide.position in initial: by 0.4305 m to 0.8305 m.",
+        ),
+        (
+            "walking_scone_h0918",
+            "root.z",
+            "0.4 m",
+            "leg_r.heel.height: at the start this is ",
+            "or remove it, so that root starts on the ground; with load: 1, root starts where the ground carries the "
+            "body weight.",
+        ),
+    ],
+)
+def test_feet_in_the_ground_are_told_once_with_the_coordinate_to_raise(
+    spec: str, address: str, value: str, said: str, move: str
+) -> None:
+    found = findings(spec, (f"initial.{address}", value))
+    (fault,) = found.impossible
+    assert found.unusual == ()
+    assert f"{fault.address}: {fault.message}".startswith(said)
+    assert fault.message.endswith(move)
+
+
+def test_the_height_that_is_told_puts_the_feet_on_the_ground() -> None:
+    (fault,) = findings("hopping_leg_mass", ("initial.guide.position", "0.4 m")).impossible
+    told = fault.message.rpartition(" to ")[2].removesuffix(".")
+    assert findings("hopping_leg_mass", ("initial.guide.position", told)) == StartFindings()
+
+
+PULSE = """gaitsim: 1
+parts:
+  rod: {{use: segment/rod, mass: 2 kg, length: 1 m}}
+  pivot: {{use: joint/hinge, parent: world, child: rod.proximal}}
+  clock: {{use: controller/clock}}
+  push: {{use: perturbation/torque, strength: 1 N m, to: pivot.torque, {numbers}}}
+simulate: {{duration: 0.1 s, step: 1 ms}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("numbers", "said"),
+    [
+        ("onset: 0 s, duration: 10 ms", ""),
+        (
+            "onset: 0.1 s, duration: 10 ms",
+            "push.onset: the pulse begins at 0.1 s and the run ends at 0.1 s, so it never acts; write an earlier onset "
+            "or a longer simulate.duration.",
+        ),
+        (
+            "onset: 0 s, duration: 0 s",
+            "push.duration: the pulse takes 0 s, so it never acts; write a longer one, such as 100 ms.",
+        ),
+        (
+            "onset: 0 s, duration: 10 ms, event_number: 2",
+            "push.event_number: the pulse follows event 2, but event is connected to nothing, so it never acts; write "
+            "event: {from: part.output}, or remove event_number.",
+        ),
+        ("onset: 9 s, duration: 10 ms, event_number: 2, event: {from: clock.signal}", ""),
+    ],
+)
+def test_a_pulse_that_never_acts_is_warned_of(numbers: str, said: str) -> None:
+    found = start_findings(Simulator(written(PULSE.format(numbers=numbers)), "normal"))
+    assert [f"{fault.address}: {fault.message}" for fault in found.unusual] == ([said] if said else [])
 
 
 def test_a_component_gets_the_check_by_declaring() -> None:

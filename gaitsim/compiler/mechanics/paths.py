@@ -11,13 +11,19 @@ import numpy as np
 from gaitsim.compiler.mechanics.making import Making
 from gaitsim.compiler.mechanics.places import Point, Vector, Wrap
 from gaitsim.compiler.mechanics.ties import Element
+from gaitsim.component import Refused
 
 
 class Paths(Making):
     """Verbs for tendons."""
 
     def tendon(self, places: Sequence[Point | Wrap], suffix: str = "") -> Element:
-        """Add a tendon through points and around cylinders, straight between them."""
+        """Add a tendon through points and around cylinders, straight between them.
+
+        Raises:
+            Refused: There are fewer than two points, all lie on one body, or two that follow each other coincide.
+        """
+        _check(places)
         tendon = self.spec.add_tendon(name=self._name(suffix), info=self._info)
         for i, place in enumerate(places):
             if isinstance(place, Wrap):
@@ -76,3 +82,18 @@ class Paths(Making):
                 place, body = place + body.pos, body.parent
             places.append(place)
         return float(sum(np.linalg.norm(b - a) for a, b in itertools.pairwise(places)))
+
+
+def _check(places: Sequence[Point | Wrap]) -> None:
+    points = [place for place in places if isinstance(place, Point)]
+    if len(points) < 2:
+        raise Refused(f"a path runs through two points at least, and this has {len(points)}; write where it ends")
+    bodies = {point.body.name for point in points}
+    if len(bodies) == 1:
+        rule = f"all of its points lie on {bodies.pop()}, so its length never changes"
+        raise Refused(f"{rule}; put the points beyond a joint on the segment there")
+    for number, (one, two) in enumerate(itertools.pairwise(places), start=1):
+        if isinstance(one, Point) and isinstance(two, Point) and one == two:
+            raise Refused(
+                f"points {number} and {number + 1} are at the same place of {one.body.name}; remove one of them"
+            )

@@ -31,7 +31,10 @@ def check_loads(model: Model, values: Sequence[float], made: Made) -> None:
             )
             rule += f"{lift.load:g}, from which this height follows; remove one of them."
             faults.add(rule, model.numbers[index].mark, address)
-        if not made.carried:
+        if not model.simulate.gravity:
+            rule = f"load is {lift.load:g}, but without gravity there is no weight to carry; remove load, or write "
+            faults.add(f"{rule}simulate: {{gravity: 9.81 m/s^2}}.", model.place(part), part.address)
+        elif not made.carried:
             rule = f"load is {lift.load:g}, but no part touches the ground; add a contact, or remove load."
             faults.add(rule, model.place(part), part.address)
         if made.collided:

@@ -9,7 +9,7 @@ from typing import Any
 import mujoco
 import numpy as np
 
-from gaitsim.errors import Fault, Faults, InvalidSpec
+from gaitsim.errors import Faults, InvalidSpec, listed
 from gaitsim.model import WORLD, Model, Part
 
 FLAT = 0.02  # smallest singular value of unit axes below which they are dependent: within 2 deg of one plane
@@ -68,7 +68,7 @@ def _ordered(model: Model, segments: dict[str, Part], carried: dict[str, list[Pa
             ring = ", ".join(address for address in segments if address not in placed)
             joint = next(joints[0] for child, joints in carried.items() if child not in placed)
             rule = f"joints connect these segments in a loop: {ring}; connect one of them to world."
-            raise InvalidSpec(Fault(rule, model.place(joint), joint.address))
+            raise InvalidSpec(model.fault(joint, rule))
         ordered += ready
         placed |= {branch.segment.address for branch in ready}
     return ordered
@@ -92,10 +92,11 @@ def check_axes(model: Model, branch: Branch, body: Any) -> None:
             names.append(made.name)
             if len(axes) > 3 or np.linalg.svd(np.array(axes), compute_uv=False)[-1] < FLAT:
                 part = parts.get(made.name) or parts[made.name.rpartition(".")[0]]
-                before = " and ".join(names[:-1])
+                before = listed(names[:-1], "and")
                 rule = f"{branch.segment.address} can already {does} this axis by {before}"
-                move = "choose an axis out of their plane" if len(axes) == 3 else "choose another axis, or remove it"
-                raise InvalidSpec(Fault(f"{rule}; {move}.", model.place(part), part.address))
+                moves = ("choose another axis, or remove it", "choose an axis out of their plane", "remove it")
+                move = moves[min(len(axes), 4) - 2]
+                raise InvalidSpec(model.fault(part, f"{rule}; {move}."))
 
 
 def _owner(frame: str, segments: dict[str, Part]) -> str:
