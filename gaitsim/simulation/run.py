@@ -113,6 +113,14 @@ class Simulator:
             return {}
         return dict(zip(self.program.signals, map(float, ending.record[0]), strict=True))
 
+    def stopped_at_once(self) -> tuple[Part, str] | None:
+        """The measure that ends the run in its first two steps and why, such as forwards; None if none does."""
+        with np.errstate(all="ignore"):
+            ending: LoopResult = self._loop.run(self.model.values(), 2, False)
+        if ending.stopped_by is None:
+            return None
+        return self.model.parts[ending.stopped_by], self._level(ending.stopped_by, ending)
+
     def _judged(self, ending: LoopResult, values: Sequence[float]) -> tuple[dict[str, float], float | None, str | None]:
         """Metrics and score, or the reason why there are none."""
         if ending.failure:

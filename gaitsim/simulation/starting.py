@@ -45,7 +45,18 @@ def start_findings(simulator: Simulator) -> StartFindings:
     starts = _without_repetition(starts)
     impossible = [start.fault for start in starts if start.beyond(start.declared.possible)]
     unusual = [start.fault for start in starts if not start.beyond(start.declared.possible)]
-    return StartFindings((*unusual, *idle_perturbations(model)), (*impossible, *singular_axes(model, physics)))
+    unusual += [*_stopped(simulator), *idle_perturbations(model)]
+    return StartFindings(tuple(unusual), (*impossible, *singular_axes(model, physics)))
+
+
+def _stopped(simulator: Simulator) -> Iterator[Fault]:
+    """A run that a measure ends as it begins, such as one of a walker that starts fallen."""
+    found = simulator.stopped_at_once()
+    if found:
+        part, how = found
+        rule = f"this ends the run as it begins{f' ({how})' if how else ''}"
+        move = "change initial:, or the numbers of this part"
+        yield Fault(f"{rule}; {move}.", simulator.model.place(part), part.address)
 
 
 def _without_repetition(starts: list[_Start]) -> list[_Start]:

@@ -128,6 +128,13 @@ def test_the_height_that_is_told_puts_the_feet_on_the_ground() -> None:
     assert findings("hopping_leg_mass", ("initial.guide.position", told)) == StartFindings()
 
 
+def test_a_start_that_is_a_fall_already_is_warned_of() -> None:
+    found = findings("walking_geyer2010", ("initial.root.pitch", "80 deg"))
+    assert found.impossible == ()
+    (fault,) = (fault for fault in found.unusual if fault.address == "fall_time")
+    assert fault.message == "this ends the run as it begins; change initial:, or the numbers of this part."
+
+
 PULSE = """gaitsim: 1
 parts:
   rod: {{use: segment/rod, mass: 2 kg, length: 1 m}}
