@@ -4,6 +4,9 @@ from __future__ import annotations
 
 from gaitsim.compiler.mechanics.making import Making
 from gaitsim.compiler.mechanics.places import Point, Vector
+from gaitsim.component import Refused
+
+_ROUNDING = 1e-9
 
 
 class Bodies(Making):
@@ -17,7 +20,17 @@ class Bodies(Making):
             center_of_mass: In m.
             inertia: Principal moments of inertia about the center of mass, in kg m^2.
             planar: Whether only the second of them is known, so that the body may turn in the sagittal plane only.
+
+        Raises:
+            Refused: One moment of inertia is larger than the two others together.
         """
+        largest = max(inertia)
+        others = sum(inertia) - largest
+        if largest > others * (1 + _ROUNDING):
+            rule = (
+                f"a moment of inertia is at most the sum of the two others, and {largest:g} kg m^2 is above {others:g}"
+            )
+            raise Refused(f"{rule} kg m^2; correct its inertias about the three axes")
         if planar:
             self.made.planar.append(self.index)
         self.own_body.mass = float(mass)
