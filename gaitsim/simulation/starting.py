@@ -45,8 +45,11 @@ def start_findings(simulator: Simulator) -> StartFindings:
     starts = _without_repetition(starts)
     impossible = [start.fault for start in starts if start.beyond(start.declared.possible)]
     unusual = [start.fault for start in starts if not start.beyond(start.declared.possible)]
-    unusual += [*_stopped(simulator), *idle_perturbations(model)]
-    return StartFindings(tuple(unusual), (*impossible, *singular_axes(model, physics)))
+    impossible += singular_axes(model, physics)
+    unusual += idle_perturbations(model)
+    if not impossible:
+        unusual += _stopped(simulator)
+    return StartFindings(tuple(unusual), tuple(impossible))
 
 
 def _stopped(simulator: Simulator) -> Iterator[Fault]:
