@@ -85,10 +85,21 @@ def test_a_candidate_s_numbers_reach_the_mechanics() -> None:
 
 
 def test_what_mujoco_refuses_is_named_by_its_line_in_the_spec() -> None:
-    # Thicker than long: an inertia that no body has.
+    # An axis that is longer than zero, but too short for MuJoCo.
+    tiny = "{use: joint/spatial_hinge, parent: world, child: upper.proximal, axis_left: 1e-20}"
+    text = f"gaitsim: 1\nparts:\n  upper: {{use: segment/rod, mass: 2 kg, length: 1 m}}\n  pivot: {tiny}\n"
+    with pytest.raises(InvalidSpec) as caught:
+        Simulator(written(f"{text}simulate: {{duration: 0.1 s, step: 1 ms}}\n"))
+    assert str(caught.value).startswith("spec.yaml:4:3: pivot: MuJoCo refuses this: axis too small in joint")
+
+
+def test_inertias_that_no_body_has_are_refused() -> None:
+    # Thicker than long.
     with pytest.raises(InvalidSpec) as caught:
         Simulator(written(BODIES, [("upper.thickness", "0.9 m")]))
-    assert str(caught.value).startswith("spec.yaml:3:3: upper: MuJoCo refuses this: inertia must satisfy A + B >= C")
+    assert str(caught.value).startswith(
+        "spec.yaml:3:3: upper: a moment of inertia is at most the sum of the two others, and 0.81 kg m^2 is above"
+    )
 
 
 @pytest.mark.parametrize(
