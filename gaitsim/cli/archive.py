@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from gaitsim.study.records import Difference
 
 _HEADLINES = 4
-app = typer.Typer(help="List, check and record models that run.", no_args_is_help=True, rich_markup_mode=None)
+app = typer.Typer(help="List, check and record models that run.", rich_markup_mode=None)
 
 
 def _names(incomplete: str) -> list[str]:

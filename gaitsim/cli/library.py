@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from gaitsim.components.find import Library
     from gaitsim.errors import Fault
 
-app = typer.Typer(help="List, show, check and create components.", no_args_is_help=True, rich_markup_mode=None)
+app = typer.Typer(help="List, show, check and create components.", rich_markup_mode=None)
 
 
 @app.command("list")

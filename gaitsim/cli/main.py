@@ -44,9 +44,11 @@ def _ran(arguments: list[str]) -> object:
         Its return value, or the exit code of its failure.
     """
     try:
-        from gaitsim.cli.program import program_for
+        from gaitsim.cli.program import GROUPS, program_for
 
         _check_encoding(arguments)
+        if not arguments or (len(arguments) == 1 and arguments[0] in GROUPS):
+            arguments = [*arguments, "--help"]
         return program_for(arguments)(args=arguments, prog_name="gaitsim", standalone_mode=False)
     except GaitsimError as error:
         console.say_error(error)

@@ -43,7 +43,6 @@ def _program(commands: Sequence[str], groups: Sequence[str]) -> typer.Typer:
     """Make the program with some commands and groups of commands."""
     made = typer.Typer(
         help="Simulate, tune and analyze neuromuscular models of gait.",
-        no_args_is_help=True,
         pretty_exceptions_enable=False,
         rich_markup_mode=None,
         context_settings={"help_option_names": ["-h", "--help"]},

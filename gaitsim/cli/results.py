@@ -13,9 +13,7 @@ from gaitsim.cli import compare, console, results_files
 from gaitsim.cli.options import Json, Trust
 from gaitsim.folders import results_folder
 
-app = typer.Typer(
-    help="List, compare, verify, note, share and remove results.", no_args_is_help=True, rich_markup_mode=None
-)
+app = typer.Typer(help="List, compare, verify, note, share and remove results.", rich_markup_mode=None)
 _FAILED, _BRIEF = 4, 60  # an exit code; letters of a note
 Folder = Annotated[Path, typer.Argument(metavar="RESULT", help="A result folder.")]
 

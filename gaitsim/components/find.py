@@ -13,6 +13,8 @@ from gaitsim.components.load import as_lines, digest_of, load_primitive
 from gaitsim.components.places import lab_of, project_of, serves
 from gaitsim.components.table import Table, load_table
 from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean, nearest
+from gaitsim.shipped import shipped_folder as shipped_folder
+from gaitsim.shipped import shipped_specs as shipped_specs
 from gaitsim.text.document import text_of
 
 _SUFFIXES = (".py", ".yaml")
@@ -24,19 +26,6 @@ SKELETON = "_skeleton.py"  # the template of `gaitsim library new`
 def is_component(path: Path) -> bool:
     """Whether a file in the folder of a kind is a component that specs can use."""
     return path.name != KIND and not path.name.startswith("_") and path.suffix in _SUFFIXES
-
-
-def shipped_folder() -> Path:
-    """The library in the wheel or in the checkout."""
-    package = Path(__file__).resolve().parents[1]
-    inside = package / "shipped" / "library"
-    return inside if inside.is_dir() else package.parent / "library"
-
-
-def shipped_specs() -> dict[str, Path]:
-    """The specs in the wheel or in the checkout, by name, without tuned values."""
-    folder = shipped_folder().parent / "specs"
-    return {path.stem: path for path in sorted(folder.glob("*.yaml")) if not path.stem.endswith(".tuned")}
 
 
 def library_folders(spec: Path | None, extra: Iterable[Path] = ()) -> tuple[Path, ...]:

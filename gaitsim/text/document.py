@@ -13,6 +13,7 @@ from typing import Any, Union
 import yaml
 
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, did_you_mean
+from gaitsim.shipped import shipped_specs
 from gaitsim.text.syntax import DEPTH_LIMIT, NO_ANCHORS, ONE_DOCUMENT, TOO_DEEP, explained
 
 SIZE_LIMIT = 5_000_000
@@ -318,10 +319,17 @@ def _missing(path: Path) -> str:
     if path.is_symlink():
         return f"this links to {path.readlink()}, which does not exist; correct the link."
     if not path.parent.is_dir():
-        return f"there is no folder {path.parent}; check the path."
+        return f"there is no folder {path.parent}; check the path.{_shipped(path)}"
     names = _specs_in(path.parent)
     hint = did_you_mean(path.name, names) if names else "Its folder holds no .yaml file."
     return f"there is no such file. {hint}"
+
+
+def _shipped(path: Path) -> str:
+    """How to get the shipped spec of this name, if there is one."""
+    if path.stem not in shipped_specs():
+        return ""
+    return f" To copy this model of gaitsim into a new folder: gaitsim new FOLDER --from {path.stem}."
 
 
 def _refused(name: str, message: str) -> InvalidSpec:

@@ -100,3 +100,10 @@ def test_completion_can_be_installed() -> None:
     )
     assert "_GAITSIM_COMPLETE=complete_bash" in ran.stdout
     assert "-o default" in ran.stdout  # paths, where nothing of ours is offered
+
+
+@pytest.mark.parametrize("words", [(), ("library",), ("archive",), ("results",)], ids=" ".join)
+def test_a_name_without_a_command_prints_its_help(words: tuple[str, ...], capsys: pytest.CaptureFixture[str]) -> None:
+    said = gaitsim(capsys, *words)
+    assert said == gaitsim(capsys, *words, "--help")
+    assert said.out.startswith(f"Usage: {' '.join(('gaitsim', *words))}")
