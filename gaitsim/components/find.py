@@ -12,9 +12,9 @@ from gaitsim.components.contract import kind_faults
 from gaitsim.components.load import as_lines, digest_of, load_primitive
 from gaitsim.components.places import lab_of, project_of, serves
 from gaitsim.components.table import Table, load_table
+from gaitsim.distribution import shipped_folder as shipped_folder
+from gaitsim.distribution import shipped_specs as shipped_specs
 from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean, nearest
-from gaitsim.shipped import shipped_folder as shipped_folder
-from gaitsim.shipped import shipped_specs as shipped_specs
 from gaitsim.text.document import text_of
 
 _SUFFIXES = (".py", ".yaml")

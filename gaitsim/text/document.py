@@ -12,8 +12,8 @@ from typing import Any, Union
 
 import yaml
 
+from gaitsim.distribution import shipped_specs
 from gaitsim.errors import Fault, Faults, InvalidSpec, Mark, did_you_mean
-from gaitsim.shipped import shipped_specs
 from gaitsim.text.syntax import DEPTH_LIMIT, NO_ANCHORS, ONE_DOCUMENT, TOO_DEEP, explained
 
 SIZE_LIMIT = 5_000_000
