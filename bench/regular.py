@@ -5,11 +5,16 @@ cost of a run is the mean square of six deviations from their medians over its t
 the pelvis, lateral velocity of the center of mass and its distance to the side of the new foot, both relative to the
 heading, duration of the step, and speed; signs are mirrored on the left. A touchdown that a fall prevents costs 9.
 
-A robust walk bears changes of its values, and random changes make a cost that is mostly noise. The search therefore
-finds the directions in which small changes of all values move the first steps most (a singular value decomposition of
-central differences). It runs each candidate as it is and changed along these directions, to both sides, as far as
-random changes of up to 1 % reach in `--deviations` standard deviations. CMA-ES minimizes the mean. It writes the mean
-of its distribution, and prints how long that walks if all values are changed at random by up to 1 %.
+A robust walk bears changes of its values. The cost of a candidate is the mean over runs in which all values are changed
+at random by up to 1 %, the same for all candidates of a generation.
+
+A reflex G (l - l_0) can hardly change if G and l_0 change on their own: both alter the mean stimulation, and the walker
+falls. The search therefore changes a gain together with its offset, so that the stimulation at the mean length stays.
+The mean is that of the lengths at which the reflex acts in the first run. Gains then bear changes of 15 %.
+
+The search is an evolution strategy of constant spreads with mirrored candidates: its center moves to the weighted mean
+of the better half. A spread is smaller for a change that raises the cost much. It writes the mean of the last centers,
+and prints how long that walks if all values are changed at random by up to 1 %.
 """
 
 from __future__ import annotations
@@ -23,12 +28,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import cma
 import numpy as np
 from touchdowns import SCALES, touchdowns
 
 from gaitsim.model import Model
-from gaitsim.simulation.outcome import Outcome
+from gaitsim.simulation.outcome import Outcome, Trajectory
 from gaitsim.simulation.run import Simulator
 from gaitsim.study.opening import Opening
 
@@ -36,9 +40,11 @@ MOST = 9.0  # cost of a touchdown that differs much, or is missing
 SETTLED = 2  # touchdowns before the first that counts
 USUAL = 0.56  # s: between touchdowns
 SHARE = 0.01  # largest relative change of a value
-DIFFERENCE = 0.002  # of values, relative, for central differences
-COMPARED = slice(1, 8)  # touchdowns whose differences tell the directions
-AGAIN = 16  # generations until the directions are determined again
+SUMS = ("offset", "setpoint", "bias")  # values that change by sums
+STEADY = 2.5  # s: after this, lengths count
+LARGEST = 0.15  # spread of a factor's logarithm
+TOLERATED = 0.3  # rise of the cost for a third of it
+LAST = 10  # generations whose centers are averaged
 
 
 @dataclass
@@ -74,11 +80,6 @@ class Walks:
         slow = max(0.0, self.slowest - float(np.median(rows[:, 5])))
         return float((each.sum() + MOST * missing) / (len(rows) + missing) + 10 * slow)
 
-    def first_steps(self, x: Any) -> Any:
-        """The first touchdowns in units of their scales; none if the walker falls before."""
-        rows = self._rows(self.run(x))[COMPARED]
-        return (rows / SCALES).ravel() if len(rows) == COMPARED.stop - COMPARED.start else None
-
     def lasts(self, x: Any) -> float:
         """How long a candidate stays up, in s."""
         return self.run(x).simulated_seconds
@@ -110,37 +111,77 @@ class Pool:
         return list(self.processes.map(_called, [method] * len(candidates), candidates, chunksize=4))
 
 
-def directions(pool: Pool, x: Any, count: int) -> Any:
-    """Relative changes of all values, of size 1, that move the first steps most; a row for each."""
-    ends = [x * (1 + sign * DIFFERENCE * row) for row in np.eye(len(x)) for sign in (1, -1)]
-    steps = pool.each("first_steps", ends)
-    slopes = np.zeros((len(SCALES) * (COMPARED.stop - COMPARED.start), len(x)))
-    for i, (after, before) in enumerate(zip(steps[::2], steps[1::2], strict=True)):
-        if after is not None and before is not None:
-            slopes[:, i] = np.nan_to_num(after - before)
-    return np.linalg.svd(slopes, full_matrices=False)[2][:count]
+class Changes:
+    """What the search changes: gains by factors, with their offsets, and all else by sums.
+
+    Args:
+        model: The model.
+        x: Its values, in SI.
+        found: A run of these, which gives the mean lengths.
+
+    Attributes:
+        names: The address of each change, the one of its tuned value.
+    """
+
+    def __init__(self, model: Model, x: Any, found: Trajectory) -> None:
+        self.names = [free.address for free in model.free]
+        self._x = np.array(x)
+        self._gains = np.array([not name.endswith(SUMS) and not name.startswith("initial.") for name in self.names])
+        self._about = [
+            (index, self.names.index(offset), mean)
+            for index, name in enumerate(self.names)
+            if (offset := name.replace("length_gain", "length_offset")) != name and offset in self.names
+            for mean in [_mean_length(model, found, name)]
+        ]
+
+    def values(self, changes: Any) -> Any:
+        """The values, in SI, after changes of size 1 = a factor of e, or 1 in SI."""
+        x = np.where(self._gains, self._x * np.exp(changes), self._x + changes)
+        for gain, offset, mean in self._about:
+            x[offset] = mean - (mean - x[offset]) * math.exp(-changes[gain])
+        return x
+
+
+def _mean_length(model: Model, found: Trajectory, gain: str) -> float:
+    """The mean normalized fiber length while a reflex acts, in l_opt."""
+    drives = next(free.drives for free in model.free if free.address == gain)
+    reflexes = [drive.rpartition(".")[0] for drive in drives]
+    senders = {connection.target: connection.sender for connection in model.connections}
+    late = found.times > STEADY
+    lengths = [found[senders[f"{reflex}.length"]][late & (found[f"{reflex}.stimulation"] != 0)] for reflex in reflexes]
+    return float(np.mean(np.concatenate(lengths)))
+
+
+def spreads(pool: Pool, changes: Changes, draws: Any) -> Any:
+    """Spreads of all changes: LARGEST, or less for one that changes the cost much."""
+    count = len(changes.names)
+    tried = [np.zeros(count), *(LARGEST / 3 * sign * row for row in np.eye(count) for sign in (1, -1))]
+    costs = np.reshape(
+        pool.each("cost", [changes.values(each) * share for each in tried for share in draws]), (len(tried), -1)
+    )
+    risen = np.abs(costs[1:] - costs[0]).mean(axis=1).reshape(count, 2).mean(axis=1)
+    return LARGEST * np.minimum(1.0, TOLERATED / np.maximum(risen, 1e-9))
 
 
 def search(walks: Walks, start: Any, pool: Pool, given: argparse.Namespace) -> Any:
-    """The mean of CMA-ES after some time."""
-    spreads = [given.scale * free.spread for free in walks.model.free]
-    bounds = [walks.low.tolist(), walks.high.tolist()]
-    options = {"popsize": given.population, "CMA_stds": spreads, "bounds": bounds, "seed": given.seed, "verbose": -9}
-    found = cma.CMAEvolutionStrategy(np.clip(start, walks.low, walks.high), 1.0, options)
-    far = given.deviations * SHARE / math.sqrt(3)  # the standard deviation of a uniform distribution
-    center, end, generation = start, time.monotonic() + 60 * given.minutes, 0
+    """The mean center of the last generations of an evolution strategy."""
+    first = walks.run(start).trajectory
+    assert first is not None
+    chance, changes = np.random.default_rng(given.seed), Changes(walks.model, start, first)
+    count, end = len(start), time.monotonic() + 60 * given.minutes
+    spread = given.scale * spreads(pool, changes, 1 + chance.uniform(-SHARE / 2, SHARE / 2, (given.draws, count)))
+    weights = np.log(given.population / 2 + 0.5) - np.log(np.arange(1, given.population // 2 + 1))
+    centers = [np.zeros(count)]
     while time.monotonic() < end:
-        if generation % AGAIN == 0:
-            most = directions(pool, center, given.directions)
-            changes = [np.zeros(len(start)), *(far * most), *(-far * most)]
-        generation += 1
-        candidates = found.ask()
-        runs = [np.array(x) * (1 + change) for x in candidates for change in changes]
-        costs = np.reshape(pool.each("cost", runs), (len(candidates), -1)).mean(axis=1)
-        found.tell(candidates, costs.tolist())
-        center = np.clip(found.result.xfavorite, walks.low, walks.high)
-        print(f"generation {generation}: lowest {min(costs):.3g}, median {np.median(costs):.3g}", flush=True)
-    return center
+        half = chance.standard_normal((given.population // 2, count))
+        steps = np.concatenate([half, -half])
+        draws = 1 + chance.uniform(-SHARE, SHARE, (given.draws, count))
+        runs = [changes.values(centers[-1] + spread * step) * share for step in steps for share in draws]
+        costs = np.reshape(pool.each("cost", runs), (len(steps), -1)).mean(axis=1)
+        best = steps[np.argsort(costs)[: len(weights)]]
+        centers.append(centers[-1] + spread * (weights @ best) / weights.sum())
+        print(f"generation {len(centers) - 1}: lowest {min(costs):.3g}, median {np.median(costs):.3g}", flush=True)
+    return np.clip(changes.values(np.mean(centers[-LAST:], axis=0)), walks.low, walks.high)
 
 
 def main() -> None:
@@ -153,10 +194,9 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=12, help="duration of a run")
     parser.add_argument("--step", default="2 ms", help="of a run")
     parser.add_argument("--slowest", type=float, default=1.0, help="speed in m/s below which a walk costs more")
-    parser.add_argument("--directions", type=int, default=3, help="directions in which each candidate is changed")
-    parser.add_argument("--deviations", type=float, default=1.5, help="how far, in standard deviations")
-    parser.add_argument("--scale", type=float, default=0.1, help="spreads of the search, in those of the spec")
-    parser.add_argument("--population", type=int, default=24)
+    parser.add_argument("--draws", type=int, default=6, help="runs of each candidate, with values changed at random")
+    parser.add_argument("--scale", type=float, default=0.2, help="of the spreads")
+    parser.add_argument("--population", type=int, default=48)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     settings = (f"simulate.step={given.step}", f"simulate.duration={given.seconds:g} s")

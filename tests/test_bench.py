@@ -70,3 +70,32 @@ def test_the_growth_of_a_deviation_is_that_of_the_map() -> None:
     assert found[0] == pytest.approx((0.01 * 0.04 * 0.01) ** (1 / 3))
     assert len(found) == 6
     assert factor(found) == pytest.approx(1.5)
+
+
+def test_a_changed_gain_keeps_the_mean_stimulation() -> None:
+    """Of G (l - l_0), at the mean length while the reflex acts, here 1.1 in stance and anything in swing."""
+    from regular import Changes
+
+    from gaitsim.study.opening import Opening
+
+    model = Opening(ROOT / "specs" / "walking_scone_h1922.yaml", ()).open().model()
+    times, start = np.arange(0, 6, 0.01), np.array(model.start)
+    stance = times % 1.0 < 0.6
+    length = np.where(stance, 1.1 + 0.1 * np.sin(2 * np.pi * times / 0.1), 0.7)
+    readers = [address for address in (f"{part.address}.length" for part in model.parts) if "reflexes." in address]
+    senders = {connection.sender for connection in model.connections if connection.target in readers}
+    signals = {
+        **dict.fromkeys(senders, length),
+        **{reader.replace(".length", ".stimulation"): 0.2 * stance for reader in readers},
+    }
+    table = np.stack(list(signals.values()), axis=1)
+    changes = Changes(model, start, Trajectory(times, tuple(signals), ("1",) * len(signals), table))
+    assert changes.values(np.zeros(start.size)) == pytest.approx(start)
+    gain, offset = (changes.names.index(f"leg.reflexes.iliopsoas_stance.length_{kind}") for kind in ("gain", "offset"))
+    wanted = np.zeros(start.size)
+    wanted[gain] = np.log(2)
+    found = changes.values(wanted)
+    assert found[gain] == pytest.approx(2 * start[gain])
+    assert found[gain] * (1.1 - found[offset]) == pytest.approx(start[gain] * (1.1 - start[offset]), rel=1e-3)
+    others = np.delete(np.arange(start.size), [gain, offset])
+    assert found[others] == pytest.approx(start[others])
