@@ -12,6 +12,8 @@ A reflex G (l - l_0) can hardly change if G and l_0 change on their own: both al
 falls. The search therefore changes a gain together with its offset, so that the stimulation at the mean length stays.
 The mean is that of the lengths at which the reflex acts in the first run. Gains then bear changes of 15 %.
 
+With `--people W`, W times the terms of `unlike_people` are added: what is beyond people's range, and effort.
+
 The search is an evolution strategy of constant spreads with mirrored candidates: its center moves to the weighted mean
 of the better half. A spread is smaller for a change that raises the cost much. It writes the mean of the last centers,
 and prints how long that walks if all values are changed at random by up to 1 %.
@@ -20,11 +22,13 @@ and prints how long that walks if all values are changed at random by up to 1 %.
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import math
 import time
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from multiprocessing import get_context
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +46,7 @@ USUAL = 0.56  # s: between touchdowns
 SHARE = 0.01  # largest relative change of a value
 SUMS = ("offset", "setpoint", "bias")  # values that change by sums
 STEADY = 2.5  # s: after this, lengths count
+STRIDE = 1.1  # s: about one, for ranges of signals
 LARGEST = 0.15  # spread of a factor's logarithm
 TOLERATED = 0.3  # rise of the cost for a third of it
 LAST = 10  # generations whose centers are averaged
@@ -54,10 +59,12 @@ class Walks:
     Attributes:
         model: The model.
         slowest: Speed in m/s below which a walk costs more.
+        people: Weight of the difference from people.
     """
 
     model: Model
     slowest: float = 1.0
+    people: float = 0.0
 
     def __post_init__(self) -> None:
         self.simulator = Simulator(self.model)
@@ -78,7 +85,9 @@ class Walks:
         each = np.minimum(MOST, np.mean(((rows - np.median(rows, axis=0)) / SCALES) ** 2, axis=1))
         missing = max(0, wanted - SETTLED - len(rows)) if outcome.status != "completed" else 0
         slow = max(0.0, self.slowest - float(np.median(rows[:, 5])))
-        return float((each.sum() + MOST * missing) / (len(rows) + missing) + 10 * slow)
+        cost = float((each.sum() + MOST * missing) / (len(rows) + missing) + 10 * slow)
+        assert outcome.trajectory is not None
+        return cost + (self.people * unlike_people(outcome.trajectory) if self.people else 0.0)
 
     def lasts(self, x: Any) -> float:
         """How long a candidate stays up, in s."""
@@ -89,11 +98,31 @@ class Walks:
         return touchdowns(found) if found is not None and len(found.times) > 1 else np.zeros((0, 6))
 
 
+def unlike_people(found: Trajectory) -> float:
+    """How far a walk is beyond people's range in rotation and obliquity of the pelvis and in the peaks of the load,
+    how much the peaks of both legs differ, and the mean squared activation; 0 if it is too short to tell.
+    """
+    count = int((found.times[-1] - STEADY) / STRIDE)
+    if count < 1:
+        return 0.0
+    ends = np.searchsorted(found.times, STEADY + STRIDE * np.arange(count + 1))
+
+    def usual(of: Any, signal: str) -> float:
+        return float(np.median([of(found[signal][a:b]) for a, b in itertools.pairwise(ends)]))
+
+    peaks = [usual(np.max, f"leg_{side}.ground.load") for side in "lr"]
+    beyond = 20 * max(0.0, usual(np.ptp, "root.yaw") - 0.235) + 40 * max(0.0, usual(np.ptp, "root.roll") - 0.2)
+    blows = 5 * max(0.0, sum(peaks) / 2 - 1.24) + 15 * abs(peaks[0] - peaks[1])
+    late = found.times > STEADY
+    muscles = [name for name in found.signals if name.endswith(".activation") and name.count(".") == 2]
+    return beyond + blows + 10 * float(np.mean([np.mean(found[name][late] ** 2) for name in muscles]))
+
+
 _WALKS: list[Walks] = []  # of this process
 
 
-def _prepare(spec: Path, settings: tuple[str, ...], slowest: float) -> None:
-    _WALKS[:] = [Walks(Opening(spec, settings).open().model(), slowest)]
+def _prepare(spec: Path, settings: tuple[str, ...], slowest: float, people: float) -> None:
+    _WALKS[:] = [Walks(Opening(spec, settings).open().model(), slowest, people)]
 
 
 def _called(method: str, x: Any) -> Any:
@@ -168,10 +197,10 @@ def search(walks: Walks, start: Any, pool: Pool, given: argparse.Namespace) -> A
     first = walks.run(start).trajectory
     assert first is not None
     chance, changes = np.random.default_rng(given.seed), Changes(walks.model, start, first)
-    count, end = len(start), time.monotonic() + 60 * given.minutes
+    count = len(start)
     spread = given.scale * spreads(pool, changes, 1 + chance.uniform(-SHARE / 2, SHARE / 2, (given.draws, count)))
     weights = np.log(given.population / 2 + 0.5) - np.log(np.arange(1, given.population // 2 + 1))
-    centers = [np.zeros(count)]
+    centers, end = [np.zeros(count)], time.monotonic() + 60 * given.minutes
     while time.monotonic() < end:
         half = chance.standard_normal((given.population // 2, count))
         steps = np.concatenate([half, -half])
@@ -194,17 +223,19 @@ def main() -> None:
     parser.add_argument("--seconds", type=float, default=12, help="duration of a run")
     parser.add_argument("--step", default="2 ms", help="of a run")
     parser.add_argument("--slowest", type=float, default=1.0, help="speed in m/s below which a walk costs more")
+    parser.add_argument("--people", type=float, default=0.0, help="weight of the difference from people")
     parser.add_argument("--draws", type=int, default=6, help="runs of each candidate, with values changed at random")
     parser.add_argument("--scale", type=float, default=0.2, help="of the spreads")
     parser.add_argument("--population", type=int, default=48)
     parser.add_argument("--seed", type=int, default=1)
     given = parser.parse_args()
     settings = (f"simulate.step={given.step}", f"simulate.duration={given.seconds:g} s")
-    walks = Walks(Opening(given.spec, settings).open().model(), given.slowest)
+    walks = Walks(Opening(given.spec, settings).open().model(), given.slowest, given.people)
     names = [free.address for free in walks.model.free]
     known = json.loads(given.start.read_text()) if given.start else dict(zip(names, walks.model.start, strict=True))
     start = np.array([known[name] for name in names])
-    with ProcessPoolExecutor(2, initializer=_prepare, initargs=(given.spec, settings, given.slowest)) as processes:
+    asked = (given.spec, settings, given.slowest, given.people)
+    with ProcessPoolExecutor(2, get_context("spawn"), _prepare, asked) as processes:
         pool = Pool(processes)
         found = search(walks, start, pool, given)
         given.to.write_text(json.dumps(dict(zip(names, found.tolist(), strict=True)), indent=0))
