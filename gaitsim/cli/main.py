@@ -47,6 +47,7 @@ def _ran(arguments: list[str]) -> object:
         from gaitsim.cli.program import GROUPS, program_for
 
         _check_encoding(arguments)
+        _check_command(arguments)
         if not arguments or (len(arguments) == 1 and arguments[0] in GROUPS):
             arguments = [*arguments, "--help"]
         return program_for(arguments)(args=arguments, prog_name="gaitsim", standalone_mode=False)
@@ -80,6 +81,31 @@ def _check_encoding(arguments: list[str]) -> None:
         os.getcwd()  # noqa: PTH109 (only asked whether it is there)
     except FileNotFoundError as error:
         raise Usage("the current folder no longer exists; change to another one.") from error
+
+
+# What other programs call a command.
+_OTHER_NAMES = {
+    **dict.fromkeys(("animate", "export", "film", "plot", "report", "video"), "analyze"),
+    **dict.fromkeys(("fit", "train", "tune"), "optimize"),
+    **dict.fromkeys(("simulate", "sim"), "run"),
+    **dict.fromkeys(("validate", "lint"), "check"),
+    **dict.fromkeys(("init", "create"), "new"),
+    "list": "results list",
+    "compare": "results compare",
+    "verify": "results verify",
+}
+
+
+def _check_command(arguments: list[str]) -> None:
+    """Refuse a command that has another name here.
+
+    Raises:
+        Usage: It has.
+    """
+    word = arguments[0] if arguments else ""
+    if word in _OTHER_NAMES:
+        here = _OTHER_NAMES[word]
+        raise Usage(f"{word}: there is no such command; here it is gaitsim {here}, see gaitsim {here} --help.")
 
 
 def _other(error: Exception) -> int:

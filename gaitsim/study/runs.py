@@ -29,6 +29,12 @@ if TYPE_CHECKING:
     from gaitsim.study.opening import Opening
 
 
+_OTHER_FORMATS = (
+    *(".parquet", ".feather", ".h5", ".hdf5", ".mat", ".nc", ".npy", ".npz", ".json", ".xlsx", ".ods"),
+    *(".sto", ".mot", ".trc", ".c3d", ".mp4", ".gif", ".png", ".svg", ".pdf"),
+)
+
+
 @dataclass(frozen=True)
 class Places:
     """Where runs are written.
@@ -54,6 +60,12 @@ class Places:
             return
         from gaitsim.results.store import CannotSave
 
+        if out is not None and out.suffix.lower() in _OTHER_FORMATS:
+            rule = f"--out writes CSV, and this name ends like another format ({out.suffix})"
+            move = (
+                f"name it {out.with_suffix('.csv')}, or save the run and use gaitsim analyze RESULT --export nc or sto"
+            )
+            raise CannotSave(f"{out}: {rule}; {move}.")
         if out is not None and out.is_dir():
             raise CannotSave(f"{out}: this is a folder; name a file in it, such as --out {out / 'trajectory.csv'}.")
         blocked = next((folder for folder in out.parents if folder.is_file()), None) if out is not None else None
