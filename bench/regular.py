@@ -99,8 +99,8 @@ class Walks:
 
 
 def unlike_people(found: Trajectory) -> float:
-    """How far a walk is beyond people's range in rotation and obliquity of the pelvis and in the peaks of the load,
-    how much the peaks of both legs differ, and the mean squared activation; 0 if it is too short to tell.
+    """How far a walk is beyond people's range in rotation and obliquity of the pelvis, knee flexion and peaks of the
+    load, how much the peaks of both legs differ, and the mean squared activation; 0 if it is too short to tell.
     """
     count = int((found.times[-1] - STEADY) / STRIDE)
     if count < 1:
@@ -110,8 +110,10 @@ def unlike_people(found: Trajectory) -> float:
     def usual(of: Any, signal: str) -> float:
         return float(np.median([of(found[signal][a:b]) for a, b in itertools.pairwise(ends)]))
 
+    knee = sum(usual(np.min, f"leg_{side}.knee.angle") for side in "lr") / 2
     peaks = [usual(np.max, f"leg_{side}.ground.load") for side in "lr"]
-    beyond = 20 * max(0.0, usual(np.ptp, "root.yaw") - 0.235) + 40 * max(0.0, usual(np.ptp, "root.roll") - 0.2)
+    beyond = 20 * max(0.0, usual(np.ptp, "root.yaw") - 0.235) + 100 * max(0.0, usual(np.ptp, "root.roll") - 0.2)
+    beyond += 80 * max(0.0, 0.985 + knee)
     blows = 5 * max(0.0, sum(peaks) / 2 - 1.24) + 15 * abs(peaks[0] - peaks[1])
     late = found.times > STEADY
     muscles = [name for name in found.signals if name.endswith(".activation") and name.count(".") == 2]
