@@ -70,7 +70,7 @@ def main() -> None:
         print(f"{name}: {growth}, {len(found)} steps", flush=True)
         panel.semilogy(np.arange(2, len(found) + 2), found, "o-", ms=3, lw=1, label=f"{name}: x {growth}")
     panel.set(xlabel="touchdown", ylabel="deviation from the undisturbed walk")
-    panel.legend(frameon=False, fontsize=8)
+    panel.legend(frameon=False, fontsize=8, loc="lower left", bbox_to_anchor=(0, 1), ncols=2)
     panel.spines[["top", "right"]].set_visible(False)
     figure.savefig(ROOT / "docs" / "pictures" / "scone_growth.png", dpi=110)
 

@@ -10,7 +10,12 @@ class SwingAngle(Component):
         "s", "Swings that begin earlier do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
     )
     direction = Parameter(
-        "1", "-1 if the joint has the opposite sign convention.", default=1, bounds=(-1, 1), source="definition: as is"
+        "1",
+        "-1 if the joint has the opposite sign convention.",
+        default=1,
+        bounds=(-1, 1),
+        source="definition: as is",
+        whole=True,
     )
     zero = Parameter(
         "rad", "Angle of the joint that counts as 0.", default=0, bounds=(-7, 7), source="definition: as is"

@@ -28,10 +28,11 @@ class SconePhases(Component):
     """The five phases of a leg in SCONE: early and late stance, lift-off, swing, landing.
 
     They follow from the loads on both legs and from the positions of the feet in front of the hip. Early stance
-    becomes late stance once the foot is behind a place; stance becomes lift-off once the other foot stands in front
-    (or the own foot is far behind); lift-off becomes swing when the load is gone; swing becomes landing once the foot
-    is in front of a place; and that early stance when the foot bears load. A foot that scuffs while it is behind the
-    other stays in swing. The phase is known one step after the signals that determine it.
+    becomes late stance once the foot is behind a place. Both become lift-off once the other foot stands in front; late
+    stance also does once the own foot is far behind. Lift-off becomes swing when the load is gone, and swing becomes
+    landing once the foot is in front of a place. Landing becomes early stance when the foot bears load. A foot in swing
+    that bears load in front of the other is in early stance too; one that scuffs behind it stays in swing. The phase is
+    known one step after the signals that determine it.
     """
 
     stance_load = Parameter(
@@ -49,7 +50,7 @@ class SconePhases(Component):
     )
     liftoff_position = Parameter(
         "m",
-        "Lift-off begins when the foot is behind this position.",
+        "Late stance becomes lift-off when the foot is behind this position.",
         default=-1,
         bounds=(-2, 1),
         source="geijtenbeek2019: out of reach",

@@ -16,7 +16,12 @@ class GaitCurve(Component):
         "s", "Strides that begin earlier do not count.", default=2, bounds=(0, 1e3), source="definition: two strides"
     )
     direction = Parameter(
-        "1", "-1 if the signal has the opposite sign convention.", default=1, bounds=(-1, 1), source="definition: as is"
+        "1",
+        "-1 if the signal has the opposite sign convention.",
+        default=1,
+        bounds=(-1, 1),
+        source="definition: as is",
+        whole=True,
     )
     zero = Parameter("*", "Value of the signal at which the curve is 0.", default=0, source="definition: as is")
     signal = Input("*", "Signal, such as the angle of a joint.", like="curve")
