@@ -372,7 +372,6 @@ def test_what_is_refused(
     spec: Path, words: tuple[str, ...], code: int, message: str, capsys: pytest.CaptureFixture[str]
 ) -> None:
     said = gaitsim(capsys, "limit", spec.name, *words)
-    # A start that is doubtful too is warned of before.
     lines = [line for line in said.err.splitlines() if not line.startswith(("warning: ", "    "))]
     assert (said.code, lines[0], said.out) == (code, message, "")
     kept = [read_manifest(folder)["status"] for folder in Path("results").glob("*")]
