@@ -25,7 +25,8 @@ import numpy as np
 from rich.console import Console
 from rich.table import Table
 
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
 from gaitsim.study.opening import Opening

@@ -99,3 +99,32 @@ def test_a_changed_gain_keeps_the_mean_stimulation() -> None:
     assert found[gain] * (1.1 - found[offset]) == pytest.approx(start[gain] * (1.1 - start[offset]), rel=1e-3)
     others = np.delete(np.arange(start.size), [gain, offset])
     assert found[others] == pytest.approx(start[others])
+
+
+@pytest.mark.parametrize(
+    ("signal", "factor", "more"), [("root.yaw", 3.0, 20 * (0.6 - 0.235)), ("left", 1.2, 5 * (1.32 - 1.24) + 15 * 0.24)]
+)
+def test_what_is_beyond_peoples_range_costs_more(signal: str, factor: float, more: float) -> None:
+    """A walk within it costs its mean squared activation only. Blows on one leg differ from the other's as well."""
+    from regular import unlike_people
+
+    times = np.arange(0, 12, 0.01)
+    wave = np.sin(2 * np.pi * times / 1.1)
+    signals = {
+        "root.yaw": 0.1 * wave,
+        "root.roll": 0.08 * wave,
+        "leg_l.ground.load": 1.2 * np.abs(wave),
+        "leg_r.ground.load": 1.2 * np.abs(wave),
+        "leg_l.knee.angle": -1 + 0 * times,
+        "leg_r.knee.angle": -1 + 0 * times,
+        "leg_l.soleus.activation": 0.1 + 0 * times,
+    }
+
+    def cost() -> float:
+        table = np.stack(list(signals.values()), axis=1)
+        return unlike_people(Trajectory(times, tuple(signals), ("1",) * len(signals), table))
+
+    assert cost() == pytest.approx(10 * 0.1**2)
+    changed = signal if "." in signal else f"leg_{signal[0]}.ground.load"
+    signals[changed] = factor * signals[changed]
+    assert cost() == pytest.approx(0.1 + more, rel=0.02)

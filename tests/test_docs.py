@@ -24,7 +24,8 @@ from typer.main import get_command
 
 from gaitsim.cli.main import main
 from gaitsim.cli.program import whole_program
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.text.document import parse
 
 ROOT = Path(__file__).resolve().parents[1]

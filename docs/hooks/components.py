@@ -17,7 +17,8 @@ from references import linked
 from gaitsim.analysis.models.curves import draw
 from gaitsim.components.composite import ComponentFile
 from gaitsim.components.describe import described
-from gaitsim.components.find import KIND, Library, shipped_folder
+from gaitsim.components.find import KIND, Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.curves import graphs
 
 FOLDER = "reference/components"

@@ -8,7 +8,7 @@ from functools import cache
 from parts_of_text import Page, escaped
 
 from gaitsim.components.bibliography import keys_of, read_bibliography
-from gaitsim.components.find import shipped_folder
+from gaitsim.distribution import shipped_folder
 
 PATH = "reference/bibliography.md"
 _FIELD = re.compile(r"^\s*(\w+)\s*=\s*\{(.*?)\},?\s*$", re.MULTILINE | re.DOTALL)

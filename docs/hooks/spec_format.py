@@ -7,7 +7,8 @@ from typing import Any
 
 from parts_of_text import Page, code, escaped, number, table
 
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.spec.json_schema import spec_schema
 
 _HEAD = """\

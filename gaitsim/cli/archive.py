@@ -21,7 +21,7 @@ app = typer.Typer(help="List, check and record models that run.", rich_markup_mo
 
 
 def _names(incomplete: str) -> list[str]:
-    from gaitsim.components.find import shipped_specs
+    from gaitsim.distribution import shipped_specs
 
     return [name for name in shipped_specs() if name.startswith(incomplete)]
 

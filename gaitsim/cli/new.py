@@ -15,7 +15,7 @@ from gaitsim.errors import command
 
 
 def _shipped(incomplete: str) -> list[str]:
-    from gaitsim.components.find import shipped_specs
+    from gaitsim.distribution import shipped_specs
 
     return [name for name in shipped_specs() if name.startswith(incomplete)]
 

@@ -12,8 +12,7 @@ from gaitsim.components.contract import kind_faults
 from gaitsim.components.load import as_lines, digest_of, load_primitive
 from gaitsim.components.places import lab_of, project_of, serves
 from gaitsim.components.table import Table, load_table
-from gaitsim.distribution import shipped_folder as shipped_folder
-from gaitsim.distribution import shipped_specs as shipped_specs
+from gaitsim.distribution import shipped_folder
 from gaitsim.errors import Fault, GaitsimError, InvalidSpec, Mark, did_you_mean, nearest
 from gaitsim.text.document import text_of
 

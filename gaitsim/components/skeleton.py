@@ -18,7 +18,8 @@ _TEST = '''"""{reference} on plain numbers, without a model around it."""
 from pathlib import Path
 
 import numpy as np
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.components.review import review
 from gaitsim.simulation.curves import graphs
 from gaitsim.simulation.trial import Trial

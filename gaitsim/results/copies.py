@@ -6,7 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from gaitsim.components.find import shipped_folder, display_path
+from gaitsim.components.find import display_path
+from gaitsim.distribution import shipped_folder
 from gaitsim.components.load import as_lines
 from gaitsim.components.places import serves
 from gaitsim.results.bundle import COMPONENTS, Bundle

@@ -10,7 +10,8 @@ from collections.abc import Iterable
 
 from gaitsim.errors import GaitsimError
 from gaitsim.folders import state_folder
-from gaitsim.components.find import shipped_folder, display_path
+from gaitsim.components.find import display_path
+from gaitsim.distribution import shipped_folder
 from gaitsim.components.load import as_lines, digest_of
 from gaitsim.results.bundle import Bundle
 

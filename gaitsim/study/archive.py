@@ -9,8 +9,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
 
-from gaitsim.components.find import Library, display_path, shipped_specs
+from gaitsim.components.find import Library, display_path
 from gaitsim.components.load import digest_of
+from gaitsim.distribution import shipped_specs
 from gaitsim.errors import Fault, GaitsimError, Mark, SimulationFailed, Usage, did_you_mean
 from gaitsim.model import Model
 from gaitsim.results.store import CannotSave

@@ -16,9 +16,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from gaitsim.cluster.episodes import episode_models
-from gaitsim.components.find import is_component, shipped_folder, shipped_specs
+from gaitsim.components.find import is_component
 from gaitsim.components.load import as_lines
 from gaitsim.components.places import LAB, PROJECT, lab_of
+from gaitsim.distribution import shipped_folder, shipped_specs
 from gaitsim.errors import InvalidSpec, Usage, did_you_mean
 from gaitsim.results.bundle import COMPONENTS, SPEC, Bundle
 from gaitsim.results.manifest import is_result, read_result, result_named

@@ -17,10 +17,11 @@ from pathlib import Path
 from gaitsim.components.bibliography import FILE, keys_of, read_bibliography
 from gaitsim.components.checks.shared import imported_names
 from gaitsim.components.composite import ComponentFile
-from gaitsim.components.find import KIND, Library, display_path, library_folders, shipped_folder
+from gaitsim.components.find import KIND, Library, display_path, library_folders
 from gaitsim.components.places import lab_of, project_of
 from gaitsim.components.review import review
 from gaitsim.components.skeleton import test_of
+from gaitsim.distribution import shipped_folder
 from gaitsim.errors import Fault, GaitsimError, InvalidComponent, Mark, SimulationFailed, Usage
 from gaitsim.results.store import CannotSave
 from gaitsim.study.acceptance import Effect, tested

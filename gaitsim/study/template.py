@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gaitsim.components.find import Library, shipped_folder, shipped_specs
+from gaitsim.components.find import Library
 from gaitsim.components.skeleton import new_component, test_of
+from gaitsim.distribution import shipped_folder, shipped_specs
 from gaitsim.errors import Usage, did_you_mean
 from gaitsim.results.tuned import tuned_path
 from gaitsim.spec.inheritance import parents, with_parents

@@ -6,8 +6,9 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-from gaitsim.components.find import Library, display_path, shipped_specs
+from gaitsim.components.find import Library, display_path
 from gaitsim.components.places import lab_of
+from gaitsim.distribution import shipped_specs
 from gaitsim.errors import GaitsimError, Usage
 from gaitsim.results.bundle import Bundle
 from gaitsim.results.manifest import read_result

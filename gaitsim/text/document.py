@@ -318,7 +318,7 @@ def _specs_in(folder: Path) -> list[str]:
 def _missing(path: Path) -> str:
     if path.is_symlink():
         return f"this links to {path.readlink()}, which does not exist; correct the link."
-    if "://" in str(path) or str(path).partition("/")[0] in ("http:", "https:"):
+    if path.parts[0] in ("http:", "https:"):  # a path has one slash after them
         return "this is an address on the web, and specs are files here; download it first."
     if not path.parent.is_dir():
         return f"there is no folder {path.parent}; check the path.{_shipped(path)}"

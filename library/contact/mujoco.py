@@ -70,9 +70,12 @@ class Mujoco(Component):
     ground_height = Input("m", "Height of the ground below the sphere.", default=0)
     gradient = Input("1", "How much the ground rises there, forwards.", default=0)
     side_gradient = Input("1", "How much the ground rises there, to the left.", default=0)
-    slope = Output("rad", "Slope of the whole ground in the forward direction.")
-    side_slope = Output("rad", "Slope of the whole ground to the left, about its forward direction.")
-    tilt = Output("1", "1 + sqrt(1 + the squares of both gradients): 2 where the ground does not rise.")
+    slope = Output("rad", "Slope of the mean ground in the forward direction.")
+    side_slope = Output("rad", "Slope of the mean ground to the left, about its forward direction.")
+    tilt = Output(
+        "1",
+        "First number of the quaternion that turns the plane below: 1 + sqrt(1 + g^2 + h^2), g and h the gradients.",
+    )
     position = Output("m", "Position of the sphere's center along the ground, forwards.")
     side_position = Output("m", "Position of the sphere's center along the ground, to the left.")
     center_height = Output("m", "Height of the sphere's center.")
@@ -83,9 +86,9 @@ class Mujoco(Component):
     pushed_forwards = Output("N", "Forward force of the sphere on the ground, in the world.")
     pushed_left = Output("N", "Force of the sphere on the ground to the left, in the world.")
     pushed_upwards = Output("N", "Upward force of the sphere on the ground, in the world.")
-    force = Output("N", "Force of the ground on the sphere, along the whole ground's normal; one step old.")
-    friction_force = Output("N", "Force of the ground on the sphere along the whole ground, forwards; one step old.")
-    side_force = Output("N", "Force of the ground on the sphere along the whole ground, to the left; one step old.")
+    force = Output("N", "Force of the ground on the sphere, along the mean ground's normal; one step old.")
+    friction_force = Output("N", "Force of the ground on the sphere along the mean ground, forwards; one step old.")
+    side_force = Output("N", "Force of the ground on the sphere along the mean ground, to the left; one step old.")
     load = Output("1", "Force in body weights; one step old.", usual=(0, 3), possible=(0, 20))
     in_contact = Output("1", "1 while the sphere is below the ground's surface, else 0.")
     energy = Output("J", "Elastic energy, computed as that of a linear spring: force times depth / 2; one step old.")
@@ -105,10 +108,10 @@ class Mujoco(Component):
         y.in_contact = 1.0 if y.height < 0 else 0.0
         cosine, sine = math.cos(y.slope), math.sin(y.slope)
         side_cosine, side_sine = math.cos(y.side_slope), math.sin(y.side_slope)
-        sunk = y.pushed_forwards * sine - y.pushed_upwards * cosine
+        normal = y.pushed_forwards * sine - y.pushed_upwards * cosine
         y.friction_force = -y.pushed_forwards * cosine - y.pushed_upwards * sine
-        y.force = sunk * side_cosine + y.pushed_left * side_sine
-        y.side_force = sunk * side_sine - y.pushed_left * side_cosine
+        y.force = normal * side_cosine + y.pushed_left * side_sine
+        y.side_force = normal * side_sine - y.pushed_left * side_cosine
         y.load = y.force / y.weight if y.weight > 0 else 0.0
         y.energy = 0.5 * y.force * max(0.0, -y.height)
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from gaitsim.analysis.replays.replay import Replay, replayed
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.model import Model
 from gaitsim.spec.inheritance import override
 from gaitsim.spec.resolve import resolve

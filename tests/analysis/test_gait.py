@@ -18,7 +18,8 @@ from gaitsim.analysis.hopping.figures import hopping_figures
 from gaitsim.analysis.muscles.figures import figures_of, matching_muscles, muscle_figures
 from gaitsim.analysis.replays.replay import Replay
 from gaitsim.analysis.signals.motion import motion_figures
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from tests.analysis.replays import cut, of_spec
 from tests.analysis.walking import STRIDE, TIMES, WEIGHT, Floats, extended, on_ground, phase, walk
 

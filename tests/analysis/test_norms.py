@@ -17,7 +17,8 @@ from gaitsim.analysis.gait.norms import (
     root_mean_square_error,
     strides,
 )
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 
 LIBRARY = Library((shipped_folder(),))
 CYCLE = np.linspace(0, 1, 101)

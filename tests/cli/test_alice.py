@@ -25,7 +25,8 @@ PHYSICS = '''
 
 from pathlib import Path
 
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.trial import Trial
 
 LIBRARY = Library((Path(__file__).parents[1] / "components", shipped_folder()))

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from gaitsim.components.bibliography import keys_of, read_bibliography
-from gaitsim.components.find import shipped_folder, shipped_specs
+from gaitsim.distribution import shipped_folder, shipped_specs
 from gaitsim.study.records import Value, read_record, record_path
 from gaitsim.text.document import plain, read
 

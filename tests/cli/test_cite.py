@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from gaitsim.components.bibliography import entries, keys_of, read_bibliography
-from gaitsim.components.find import shipped_folder
+from gaitsim.distribution import shipped_folder
 from gaitsim.optimization.algorithms import ALGORITHMS
 
 from .commands import gaitsim

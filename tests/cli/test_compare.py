@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from gaitsim.components.find import shipped_specs
+from gaitsim.distribution import shipped_specs
 from gaitsim.study.comparison import gait_pairs
 from tests.analysis.replays import cut
 from tests.analysis.walking import bent, walk

@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 
 from .commands import gaitsim
 

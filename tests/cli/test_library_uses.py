@@ -10,7 +10,8 @@ from typing import Any
 
 import pytest
 
-from gaitsim.components.find import Library, shipped_folder, shipped_specs
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder, shipped_specs
 
 from .commands import gaitsim
 

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.components.find import shipped_specs
+from gaitsim.distribution import shipped_specs
 
 from .commands import gaitsim
 

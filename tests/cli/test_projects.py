@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.components.find import shipped_folder, shipped_specs
+from gaitsim.distribution import shipped_folder, shipped_specs
 
 from .commands import Said, gaitsim
 

@@ -10,7 +10,7 @@ import pytest
 
 import gaitsim as notebook
 from gaitsim.cli.program import whole_program
-from gaitsim.components.find import shipped_specs
+from gaitsim.distribution import shipped_specs
 
 from .commands import gaitsim
 

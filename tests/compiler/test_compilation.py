@@ -11,9 +11,10 @@ import pytest
 from gaitsim.cache import cached
 from gaitsim.compiler import compilation
 from gaitsim.compiler.kernel import Kernel, kernel_of
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
 from gaitsim.components.load import load_primitive
 from gaitsim.components.primitive import Primitive
+from gaitsim.distribution import shipped_folder
 from gaitsim.errors import InvalidComponent
 
 NAMES = ("measure/peak", "measure/range", "controller/clock")

@@ -9,9 +9,10 @@ from types import SimpleNamespace
 from typing import Any
 
 from gaitsim.components.composite import Composite
-from gaitsim.components.find import SKELETON, Library, is_component, shipped_folder
+from gaitsim.components.find import SKELETON, Library, is_component
 from gaitsim.components.load import function_of
 from gaitsim.components.primitive import Primitive
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.run import Mode
 from gaitsim.simulation.trial import Trial as Tables
 from gaitsim.simulation.view import View

@@ -10,8 +10,9 @@ import pytest
 from gaitsim.components import load
 from gaitsim.components.checks import audit, audited
 from gaitsim.components.checks.shared import Shared
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
 from gaitsim.components.primitive import Primitive
+from gaitsim.distribution import shipped_folder
 
 MUSCLE = shipped_folder() / "muscle" / "geyer2003.py"
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from gaitsim.components.find import Library, library_folders, shipped_folder
+from gaitsim.components.find import Library, library_folders
+from gaitsim.distribution import shipped_folder
 
 
 def test_a_library_above_a_spec_counts_only_in_a_marked_lab(tmp_path: Path) -> None:

@@ -8,8 +8,9 @@ from pathlib import Path
 import pytest
 
 from gaitsim.components.checks.shared import definitions, imported_names
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
 from gaitsim.components.primitive import Primitive
+from gaitsim.distribution import shipped_folder
 from gaitsim.errors import GaitsimError
 from gaitsim.results.bundle import Bundle, bundled, read_bundle
 from gaitsim.results.trust import Untrusted, check_trust

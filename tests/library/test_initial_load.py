@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from gaitsim.components.find import shipped_folder
+from gaitsim.distribution import shipped_folder
 from gaitsim.errors import InvalidSpec, SimulationFailed
 from gaitsim.simulation.run import Simulator
 

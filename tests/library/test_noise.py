@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 from components.calls import Tables, computed, primitive
 
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
 from gaitsim.components.load import function_of
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.resolve import resolve
 from gaitsim.text.document import parse

@@ -10,8 +10,9 @@ import pytest
 from components.calls import FOLDER, Tables, metrics, primitive
 
 from gaitsim.components.bibliography import read_bibliography
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
 from gaitsim.components.table import Table, load_table, resampled
+from gaitsim.distribution import shipped_folder
 from gaitsim.errors import InvalidSpec
 from gaitsim.results.bundle import bundled
 from gaitsim.results.citation import citations

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from components.calls import FILES, Tables, computed, primitive
 
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.json_schema import spec_schema
 from gaitsim.spec.resolve import resolve

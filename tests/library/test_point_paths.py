@@ -10,7 +10,8 @@ import mujoco
 import numpy as np
 import pytest
 
-from gaitsim.components.find import Library, library_folders, shipped_folder
+from gaitsim.components.find import Library, library_folders
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import read_spec, resolve
 

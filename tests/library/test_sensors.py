@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 from components.calls import computed
 
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.outcome import Trajectory
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.resolve import resolve

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.resolve import resolve

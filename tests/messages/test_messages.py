@@ -14,7 +14,7 @@ from pathlib import Path
 
 import pytest
 from gaitsim.cli.main import main
-from gaitsim.components.find import shipped_folder
+from gaitsim.distribution import shipped_folder
 
 HERE = Path(__file__).parent
 DEFAULT = "gaitsim check spec.yaml"

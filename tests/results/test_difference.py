@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.model import Model
 from gaitsim.results.bundle import Bundle
 from gaitsim.results.difference import Change, code_changes, counted, making_changes, model_changes

@@ -15,7 +15,7 @@ import pytest
 from cli.commands import Said
 from cli.commands import gaitsim as run_gaitsim
 
-from gaitsim.components.find import shipped_folder
+from gaitsim.distribution import shipped_folder
 from gaitsim.results.lock import Lock
 
 from .test_trust import OURS, SPEC, signed

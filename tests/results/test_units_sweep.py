@@ -12,7 +12,8 @@ import pytest
 
 from gaitsim.model import Model
 from gaitsim.optimization.history import parameters_csv
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.results.listing import parameter_rows
 from gaitsim.results.tuned import problem_of, read_tuned, write_tuned
 from gaitsim.simulation.run import Simulator

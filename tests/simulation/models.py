@@ -6,7 +6,8 @@ from collections.abc import Iterable
 from functools import cache
 from pathlib import Path
 
-from gaitsim.components.find import Library, library_folders, shipped_folder
+from gaitsim.components.find import Library, library_folders
+from gaitsim.distribution import shipped_folder
 from gaitsim.model import Model
 from gaitsim.simulation.run import Mode, Simulator
 from gaitsim.spec.inheritance import override

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from gaitsim.components.find import Library, display_path, shipped_folder
+from gaitsim.components.find import Library, display_path
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
 from gaitsim.spec.resolve import resolve

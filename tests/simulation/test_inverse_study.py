@@ -7,7 +7,8 @@ import math
 import numpy as np
 import pytest
 
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.simulation.outcome import Outcome
 from gaitsim.simulation.run import Simulator
 from gaitsim.study.opening import Opening

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from gaitsim.compiler.program import Program
-from gaitsim.components.find import Library, shipped_folder
+from gaitsim.components.find import Library
+from gaitsim.distribution import shipped_folder
 from gaitsim.errors import SimulationFailed
 from gaitsim.model import Model
 from gaitsim.simulation.native_loop import NativeLoop

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from gaitsim.analysis.replays.replay import Replay
-from gaitsim.components.find import shipped_folder
+from gaitsim.distribution import shipped_folder
 from gaitsim.errors import Fault, InvalidSpec, Mark
 from gaitsim.text.document import plain, read
 

@@ -92,9 +92,9 @@ class Contacts(Actuators, Sensors, Ports):
             forward: The port with the position of the ground below the sphere, forwards, in m.
             left: The port with that position to the left.
             up: The port with that position upwards.
-            tilt: The port with 1 + sqrt(1 + g^2 + h^2), of the ports that follow.
-            gradient: The port with g: how much the ground grows forwards.
-            side_gradient: The port with h: how much it grows to the left.
+            tilt: The port with 1 + sqrt(1 + g^2 + h^2). With h and -g it is a quaternion that turns the plane.
+            gradient: The port with g: how much the ground rises forwards.
+            side_gradient: The port with h: how much it rises to the left.
             surface: The inner part.
         """
 
